@@ -1,0 +1,92 @@
+"""Build the FMUs: `python build_fmu.py` writes dist/CompensationRope.fmu and dist/ElevatorDrive.fmu."""
+
+import argparse
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+sys.path.insert(0, str(ROOT / "fmu_src"))
+
+from comprope.drive.engine import interface as drive_interface  # noqa: E402
+from comprope.errors import CompropeError, InputError  # noqa: E402
+from comprope.fmi.build import Origin, build  # noqa: E402
+from comprope.rope.effects import RopeModel  # noqa: E402
+from comprope.rope.engine import interface as rope_interface  # noqa: E402
+from comprope.rope.modelfile import dump, load  # noqa: E402
+from comprope.rope.parameters import Sensor  # noqa: E402
+
+DEFAULT_MODEL = ROOT / "system" / "comprope_system" / "presets" / "tower50.toml"
+
+ROPE_ENTRY = """\
+from .rope.engine import interface
+from .rope.modelfile import load
+
+INTERFACE = interface(load(HERE / "model.toml"))
+"""
+
+DRIVE_ENTRY = """\
+from .drive.engine import interface
+
+INTERFACE = interface()
+"""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Build both FMUs; returns the exit status: 0 done, 2 bad input, 1 anything else."""
+    options = _options(arguments)
+    try:
+        origin = Origin(_version(), (ROOT / "LICENSE").read_text("utf-8"))
+        for path in (build_rope(options.model, options.sensors, options.out, origin), build_drive(options.out, origin)):
+            sys.stdout.write(f"{path}\n")
+    except CompropeError as error:
+        sys.stderr.write(f"{error}\n")
+        return 2 if isinstance(error, InputError) else 1
+    return 0
+
+
+def build_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
+    """The rope's FMU, its parameters starting at the values of a model file."""
+    model = load(model_file)
+    if sensors is not None:
+        model = with_sensors(model, sensors)
+    with tempfile.TemporaryDirectory() as folder:
+        bundled = Path(folder) / "model.toml"
+        dump(model, bundled)
+        data = {"model.toml": bundled.read_bytes()}
+    return build(rope_interface(model), ["rope"], ROPE_ENTRY, out, origin, data)
+
+
+def build_drive(out: Path, origin: Origin) -> Path:
+    """The drive's FMU."""
+    return build(drive_interface(), ["drive"], DRIVE_ENTRY, out, origin)
+
+
+def with_sensors(model: RopeModel, count: int) -> RopeModel:
+    """The model with its first `count` sensors, and as many more as it lacks, half-way up on either side in turn."""
+    if not 0 <= count <= 1000:
+        raise InputError(f"--sensors {count}: 0 to 1000 is accepted")
+    taken = {sensor.name for sensor in model.sensors}
+    names = [name for number in range(1, count + len(taken) + 1) if (name := f"sensor{number}") not in taken]
+    sides = ("counterweight", "car")
+    height = 0.5 * model.shaft.height
+    added = [Sensor(name=name, side=sides[place % 2], height=height) for place, name in enumerate(names)]  # type: ignore[arg-type]
+    return model.model_copy(update={"sensors": (*model.sensors, *added)[:count]})
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--model", type=Path, default=DEFAULT_MODEL, metavar="MODEL.toml", help="rope model to start from")
+    parser.add_argument("--sensors", type=int, metavar="N", help="number of displacement sensors; default: those of the model")
+    parser.add_argument("--out", type=Path, default=ROOT / "dist", metavar="DIR", help="folder to write to (default: dist)")
+    return parser.parse_args(arguments)
+
+
+def _version() -> str:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    return str(project["version"])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

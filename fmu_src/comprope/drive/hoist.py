@@ -1,0 +1,101 @@
+"""The hoist: traction sheave, car and counterweight on elastic ropes, linear about any car position.
+
+All quantities are deviations from the rest at which the simulation starts. States, inputs and their units:
+
+    s, x_c, x_w   [m]    way of the traction sheave's rim (car up), of the car (up), of the counterweight (up)
+    v_s, v_c, v_w [m/s]  their velocities
+    T_c, T_w      [N]    elastic tension of the hoist ropes on the car's and on the counterweight's side
+    f             [N]    force of the motor at the rim, torque / radius
+    F_c, F_w      [N]    pull of the compensation ropes on car and counterweight, down
+
+With L_c = headroom + height - x and L_w = headroom + x the rope lengths, mu the hoist ropes' mass per length,
+half of each side's rope moving with its end and half with the sheave, N the tension with its damping part:
+
+    T_c' = EA/L_c (v_s - v_c) - mu g v_s/2      N_c = T_c + D/L_c (v_s - v_c)
+    T_w' = -EA/L_w (v_s + v_w) + mu g v_s/2     N_w = T_w - D/L_w (v_s + v_w)
+    (J/r^2 + mu (L_c + L_w)/2) v_s' = f - N_c + N_w + mu g s
+    (m_c + mu L_c/2) v_c' =  N_c + mu g s/2 - F_c
+    (m_w + mu L_w/2) v_w' =  N_w - mu g s/2 - F_w
+
+Tensions, not elongations, are the states: rope that runs on or off the sheave carries the strain it has there, as
+without creep, which exceeds its side's mean by mu g L/(2 EA) (the term mu g v_s/2: a slow trip under constant loads
+moves the car exactly as far as the rim); and nothing jumps when the stiffness is scheduled with the position. Not in
+the model: creep, slip, slack, the ropes' own waves, and the momentum of rope that changes sides. Unvalidated against
+measurements of a lift.
+"""
+
+from dataclasses import dataclass
+
+import control
+import numpy as np
+
+from .parameters import Drive
+
+STATES = ("s", "x_c", "x_w", "v_s", "v_c", "v_w", "T_c", "T_w")
+INPUTS = ("f", "F_c", "F_w")
+S, X_C, X_W, V_S, V_C, V_W, T_C, T_W = range(8)
+
+
+@dataclass(frozen=True)
+class Lumps:
+    """Rope lengths [m] on both sides and moving masses [kg] with the car at one position."""
+
+    car_rope: float
+    counterweight_rope: float
+    sheave: float
+    car: float
+    counterweight: float
+
+
+def lumps(drive: Drive, position: float) -> Lumps:
+    """Lengths and masses with the car at `position` [m above the bottom landing]."""
+    plant, height = drive.plant, drive.shaft.height
+    car_rope, counterweight_rope = plant.headroom + height - position, plant.headroom + position
+    half = 0.5 * plant.rope_mass_per_length
+    return Lumps(
+        car_rope,
+        counterweight_rope,
+        plant.machine_inertia / plant.sheave_radius**2 + half * (car_rope + counterweight_rope),
+        plant.car_mass + half * car_rope,
+        plant.counterweight_mass + half * counterweight_rope,
+    )
+
+
+def moving_mass(drive: Drive) -> float:
+    """All that moves with the rope [kg], the machine's inertia as mass at the rim; the same at every position."""
+    parts = lumps(drive, 0.0)
+    return parts.sheave + parts.car + parts.counterweight
+
+
+def holding_force(drive: Drive, position: float, car_pull: float, counterweight_pull: float) -> float:
+    """Force at the rim [N] that holds the car at `position` [m]; the pulls [N] are those of all compensation ropes."""
+    parts, plant, gravity = lumps(drive, position), drive.plant, drive.shaft.gravity
+    ropes = plant.rope_mass_per_length * (parts.car_rope - parts.counterweight_rope)
+    return gravity * (plant.car_mass - plant.counterweight_mass + ropes) + car_pull - counterweight_pull
+
+
+def state_space(drive: Drive, position: float) -> control.StateSpace:
+    """The hoist about the car at `position` [m]: inputs f, F_c, F_w [N], outputs all states."""
+    parts = lumps(drive, position)
+    weight = drive.plant.rope_mass_per_length * drive.shaft.gravity
+    a, b = np.zeros((8, 8)), np.zeros((8, 3))
+    a[S, V_S] = a[X_C, V_C] = a[X_W, V_W] = 1.0
+    car_strain_rate = _row(V_S, 1.0, V_C, -1.0) / parts.car_rope
+    counterweight_strain_rate = -_row(V_S, 1.0, V_W, 1.0) / parts.counterweight_rope
+    a[T_C] = drive.plant.rope_stiffness * car_strain_rate - _row(V_S, weight / 2.0)
+    a[T_W] = drive.plant.rope_stiffness * counterweight_strain_rate + _row(V_S, weight / 2.0)
+    n_c = _row(T_C, 1.0) + drive.plant.rope_damping * car_strain_rate
+    n_w = _row(T_W, 1.0) + drive.plant.rope_damping * counterweight_strain_rate
+    a[V_S] = (n_w - n_c + _row(S, weight)) / parts.sheave
+    a[V_C] = (n_c + _row(S, weight / 2.0)) / parts.car
+    a[V_W] = (n_w - _row(S, weight / 2.0)) / parts.counterweight
+    b[V_S, 0], b[V_C, 1], b[V_W, 2] = 1.0 / parts.sheave, -1.0 / parts.car, -1.0 / parts.counterweight
+    return control.ss(a, b, np.eye(8), np.zeros((8, 3)), states=STATES, inputs=INPUTS, outputs=STATES, name="hoist")
+
+
+def _row(*pairs: float) -> np.ndarray:
+    """A row over the states from (index, factor, index, factor, ...)."""
+    row = np.zeros(len(STATES))
+    for index, factor in zip(pairs[::2], pairs[1::2], strict=True):
+        row[int(index)] = factor
+    return row

@@ -1,0 +1,82 @@
+"""What an elevator drive is: its components, each quantity declared once.
+
+The defaults are a 50 m test tower at 150 m/min (2.5 m/s) and 0.8 m/s2, machine above the shaft,
+ropes 1:1, and two compensation ropes that weigh as much per metre as all hoist ropes together.
+"""
+
+from pydantic import model_validator
+
+from ..declare import Component, quantity
+
+
+class Profile(Component):
+    """Limits of the jerk-limited trips."""
+
+    speed: float = quantity("m/s", "rated speed", 0.01, 25.0, default=2.5)
+    acceleration: float = quantity("m/s2", "largest acceleration and deceleration", 0.01, 3.0, default=0.8)
+    jerk: float = quantity("m/s3", "largest rate of change of acceleration", 0.01, 20.0, default=0.8)
+
+
+class FirstTrip(Component):
+    """Where the car stands, and the first trip it makes; heights above the bottom landing."""
+
+    start_position: float = quantity("m", "car height at the start", 0.0, 1000.0, default=0.0, nominal=10.0)
+    destination: float = quantity("m", "car height at the end of the first trip", 0.0, 1000.0, default=50.0)
+    start_time: float = quantity("s", "time at which the first trip begins; not before the run does", 0.0, 1e6, default=1.0)
+
+
+class Shaft(Component):
+    """The building; heights count from the bottom landing, up positive."""
+
+    height: float = quantity("m", "travel from bottom to top landing", 1.0, 1000.0, default=50.0)
+    gravity: float = quantity("m/s2", "acceleration of gravity", 1.0, 30.0, default=9.81)
+
+
+class CompensationRopes(Component):
+    """How many ropes pull on the car and the counterweight with the tensions given for one rope."""
+
+    count: float = quantity("1", "number of compensation ropes; the end tensions are per rope", 0.0, 50.0, default=2.0)
+
+
+class Plant(Component):
+    """Masses and hoist ropes; the machine stands above the top landing, ropes 1:1."""
+
+    car_mass: float = quantity("kg", "car with its load", 50.0, 1e5, default=2000.0)
+    counterweight_mass: float = quantity("kg", "counterweight", 50.0, 1e5, default=2300.0)
+    sheave_radius: float = quantity("m", "traction sheave, to the ropes' centre line", 0.05, 2.0, default=0.25)
+    machine_inertia: float = quantity("kg.m2", "moment of inertia of motor and traction sheave", 0.01, 1e5, default=30.0)
+    headroom: float = quantity("m", "hoist rope between the traction sheave and a car at the top landing", 0.5, 50.0, default=4.0)
+    rope_mass_per_length: float = quantity("kg/m", "mass per length of all hoist ropes together", 0.0, 100.0, default=2.4)
+    rope_stiffness: float = quantity("N", "axial stiffness EA of all hoist ropes together", 1e5, 1e10, default=3e7)
+    rope_damping: float = quantity("N.s", "axial force of all hoist ropes per strain rate", 0.0, 1e8, default=6e4)
+
+
+class Servo(Component):
+    """Cascade of position and speed control on the motor's encoder."""
+
+    position_bandwidth: float = quantity("rad/s", "gain of the position loop", 0.1, 50.0, default=3.0)
+    speed_bandwidth: float = quantity("rad/s", "natural frequency of the speed loop on rigid ropes", 0.5, 200.0, default=12.0)
+    speed_damping: float = quantity("1", "damping ratio of the speed loop on rigid ropes", 0.2, 5.0, default=1.0)
+    torque_limit: float = quantity("N.m", "largest torque of the motor", 1.0, 1e7, default=5000.0)
+    sample_period: float = quantity("s", "sample period of the controller", 1e-4, 0.02, default=1e-3)
+    velocity_feedforward: float = quantity("1", "share of the reference velocity that is fed forward", 0.0, 1.5, default=1.0)
+    acceleration_feedforward: float = quantity("1", "share of the inertia force that is fed forward", 0.0, 1.5, default=1.0)
+
+
+class Drive(Component):
+    """The whole drive."""
+
+    shaft: Shaft = Shaft()
+    profile: Profile = Profile()
+    trip: FirstTrip = FirstTrip()
+    plant: Plant = Plant()
+    rope: CompensationRopes = CompensationRopes()
+    servo: Servo = Servo()
+
+    @model_validator(mode="after")
+    def _stops_in_the_shaft(self) -> "Drive":
+        stops = {"trip.start_position": self.trip.start_position, "trip.destination": self.trip.destination}
+        outside = [f"{name} = {value} m" for name, value in stops.items() if value > self.shaft.height]
+        if outside:
+            raise ValueError(f"{' and '.join(outside)}: accepted is 0 to shaft.height = {self.shaft.height} m")
+        return self

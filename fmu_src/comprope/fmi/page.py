@@ -1,0 +1,24 @@
+"""The documentation inside an FMU: one HTML page with its variables and what its host needs."""
+
+from pathlib import Path
+
+from jinja2 import Environment
+
+from .engine import ModelInterface, Variable
+
+_PAGE = Path(__file__).with_name("page.html")
+
+
+def page(interface: ModelInterface, version: str, python: str, needs: str) -> str:
+    """The HTML page of a model's FMU; `python` is the oldest that runs it, `needs` the packages it must have."""
+    environment = Environment(autoescape=True, trim_blocks=True, keep_trailing_newline=True)
+    environment.filters["range"] = _range
+    tables = [(role, found) for role in ("input", "output", "parameter") if (found := interface.of_role(role))]
+    return environment.from_string(_PAGE.read_text("utf-8")).render(
+        model=interface, version=version, python=python, needs=needs, tables=tables
+    )
+
+
+def _range(variable: Variable) -> str:
+    low, high = (f"{bound:g}" if bound is not None else "" for bound in (variable.minimum, variable.maximum))
+    return f"{low} to {high}" if low and high else f"at least {low}" if low else f"at most {high}" if high else "any"

@@ -1,0 +1,127 @@
+"""Join the kernels and the effects of a model into the few functions that Python calls.
+
+The joined functions live in a small file of their own in the user's cache folder, named by the
+content of every kernel they contain. So they are compiled once for a machine, whichever copy of this
+package asks for them, and a changed kernel is never mistaken for an old one.
+"""
+
+import hashlib
+import inspect
+import os
+import sys
+import tempfile
+import types
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numba
+
+from . import band, contact, dynamics, elastica, ends, jit, ledger, march, newmark, slots, statics, work, zone
+from .effects import REGISTRY
+from .effects.base import Effect, Kernel
+
+MODULES = (work, jit, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics)
+ARGUMENTS = {
+    "moments": "n, p, w, h0, h1",
+    "forces": "n, t, p, q, v, w, f",
+    "tangents": "n, t, p, q, v, w, A, ck, cc",
+    "ends": "n, t, p, q, v, a",
+    "groove": "p, angle",
+}
+ENTRIES = {"advance": march.march, "hang": statics.rest, "evaluate": dynamics.forces, "place": ends.place_ends}
+
+
+def hook_source(hook: str, effects: list[type[Effect]]) -> str:
+    """Source of one function that runs a hook through all effects that have it."""
+    calls = [(k, f"{effect.name}_{hook}({ARGUMENTS[hook]})") for k, effect in enumerate(effects) if hook in effect.hooks]
+    if hook == "groove":
+        lines = ["x, y, gx, gy = 0.0, 0.0, 0.0, 0.0"]
+        for _, call in calls:
+            lines += [f"a, b, c, d = {call}", "x, y, gx, gy = x + a, y + b, gx + c, gy + d"]
+        return _function(hook, ARGUMENTS[hook], [*lines, "return x, y, gx, gy"])
+    powered = hook in ("moments", "forces")
+    arguments = ARGUMENTS[hook] + (", power" if powered else "")
+    lines = [f"power[{k}] {'=' if hook == 'moments' else '+='} {call}" if powered else call for k, call in calls]
+    if hook == "moments":
+        lines = [f"power[{k}] = 0.0" for k in range(len(effects))] + lines
+    return _function(hook, arguments, lines or ["pass"])
+
+
+def _function(name: str, arguments: str, lines: list[str]) -> str:
+    body = "\n".join(f"    {line}" for line in lines)
+    return f"@kernel\ndef all_{name}({arguments}):\n{body}\n"
+
+
+def entry_source(name: str, function: Kernel) -> str:
+    """Source of one function that Python calls: the kernel `function`."""
+    names = list(inspect.signature(getattr(function, "py_func", function)).parameters)
+    arguments = ", ".join(names)
+    return f"@entry\ndef {name}({arguments}):\n    return {function.__name__}({arguments})\n"
+
+
+def cache_folder(sources: Iterable[str]) -> Path:
+    """Folder for what is compiled from these sources, in the user's cache or, failing that, a temporary one."""
+    key = hashlib.sha256("\0".join([*sources, numba.__version__, sys.version]).encode()).hexdigest()[:16]
+    for base in (os.environ.get("COMPROPE_CACHE"), _user_cache(), os.path.join(tempfile.gettempdir(), "comprope")):
+        if base:
+            folder = Path(base) / key
+            try:
+                folder.mkdir(parents=True, exist_ok=True)
+            except OSError:
+                continue
+            if os.access(folder, os.W_OK):
+                return folder
+    return Path(tempfile.mkdtemp(prefix="comprope"))
+
+
+def _user_cache() -> str:
+    if sys.platform == "win32":
+        return os.path.join(os.environ.get("LOCALAPPDATA", tempfile.gettempdir()), "comprope", "cache")
+    return os.path.join(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache")), "comprope")
+
+
+@cache
+def compiled(effects: tuple[str, ...] | None = None) -> ModuleType:
+    """The joined functions `advance`, `hang`, `evaluate` and `place` for the effects named, all by default."""
+    chosen = [REGISTRY[name] for name in (REGISTRY if effects is None else effects)]
+    modules = [sys.modules[name] for name in sorted({effect.__module__ for effect in chosen})]
+    hooks = "\n".join(hook_source(hook, chosen) for hook in ARGUMENTS)
+    entries = "\n".join(entry_source(*one) for one in ENTRIES.items())
+    sources = [inspect.getsource(one) for one in (*MODULES, *modules)]
+    folder = cache_folder([hooks, entries, *sources, repr(list(slots.DECLARED))])
+    joined = types.ModuleType(f"comprope_joined_{folder.name}")
+    # What is compiled is loaded again by the name of its module, which must not depend on where this package stands.
+    sys.modules[joined.__name__] = joined
+    for effect in chosen:
+        own = bound(vars(sys.modules[effect.__module__]), joined.__name__)
+        joined.__dict__.update({f"{effect.name}_{hook}": own[one.__name__] for hook, one in effect.hooks.items()})
+    joined.__dict__["kernel"] = jit.kernel
+    exec(hooks, joined.__dict__)
+    names = {key: value for module in MODULES for key, value in vars(module).items()}
+    names |= {f"all_{hook}": getattr(joined, f"all_{hook}") for hook in ARGUMENTS}
+    joined.__dict__.update(bound(names, joined.__name__), entry=jit.entry)
+    exec(compile(entries, _file(folder / "joined.py", entries), "exec"), joined.__dict__)
+    return joined
+
+
+def bound(names: Mapping[str, Any], module: str) -> dict[str, Any]:
+    """A copy of a namespace in which every kernel calls the kernels of that copy."""
+    copy = {key: value for key, value in names.items() if not key.startswith("__")} | {"__name__": module}
+    for key, value in names.items():
+        function = getattr(value, "py_func", value)
+        compilable = value is not function or jit.PURE and isinstance(function, types.FunctionType)
+        if compilable and function.__module__ not in (jit.__name__, module):
+            copy[key] = jit.kernel(types.FunctionType(function.__code__, copy, function.__name__))
+    return copy
+
+
+def _file(path: Path, text: str) -> str:
+    """Write the text where it is not written yet, whole or not at all; returns the path."""
+    if not path.exists():
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False, suffix=".tmp") as file:
+            file.write(text)
+        os.replace(file.name, path)
+    return str(path)

@@ -1,0 +1,33 @@
+"""A rope that is bent by nature: it is free of moment at a curvature of its own, M = EI (kappa - kappa_0)."""
+
+from ...declare import quantity
+from ..jit import kernel
+from ..slots import EI, ELEMENT, slot
+from ..work import BEND_RATE, MOMENT
+from .base import Effect, acts, register
+
+
+class IntrinsicCurvature(Effect):
+    """The rope's own curvature, from the drum it came on."""
+
+    name = "intrinsic_curvature"
+    curvature: float = quantity("1/m", "curvature without moment, positive as on the sheave", -5.0, 5.0, nominal=0.1, off=0.0)
+
+
+register(IntrinsicCurvature)
+KAPPA = slot("effects.intrinsic_curvature.curvature")
+
+
+@kernel
+def own_moment(n, p, w, h0, h1):
+    """Take EI kappa_0 off the moment of every inner node."""
+    if p[KAPPA] == 0.0:
+        return 0.0
+    m, own, power = n + 1, p[EI] * p[KAPPA], 0.0
+    for i in range(1, n - 1):
+        w[MOMENT * m + i] -= own
+        power += own * w[BEND_RATE * m + i] * p[ELEMENT]
+    return power
+
+
+acts(IntrinsicCurvature, moments=own_moment)

@@ -1,0 +1,213 @@
+"""The rope as an object: settle it, move its ends, read what a sensor sees."""
+
+from collections.abc import Mapping
+from math import ceil, pi
+from typing import Any
+
+import numpy as np
+
+from ..declare import quantities
+from ..errors import InputError, SimulationError
+from . import band, ledger, work, zone
+from .compose import compiled
+from .effects.base import REGISTRY
+from .ends import PATH, PATHS
+from .newmark import HALVED, NEWTON, STEPS, WORST
+from .parameters import Base
+from .sensors import side_maximum, sight
+from .slots import COMPONENTS, MU, vector
+from .state import Array, State, empty
+
+SIDES = {"car": -1, "counterweight": 1}
+
+
+def values_of(model: Base) -> dict[str, float]:
+    """Every number of a model by its name in the model file, effects included."""
+    parts: dict[str, Any] = {name: getattr(model, name) for name in COMPONENTS}
+    effects = getattr(model, "effects", None)
+    parts |= {f"effects.{name}": part for name in REGISTRY if (part := getattr(effects, name, None)) is not None}
+    return {f"{name}.{one.name}": getattr(part, one.name) for name, part in parts.items() for one in quantities(type(part))}
+
+
+class CompensationRope:
+    """One rope on its sheave.
+
+    `settle` puts it at rest; `step` moves its ends along smooth paths; outputs are read between steps.
+    Heights are metres above the bottom landing, up positive; lateral displacements are outward.
+    """
+
+    def __init__(self, model: Base) -> None:
+        self.model = model
+        self.n = max(round(model.rope_length / model.rope.element_length), 16) + 1
+        self.element = model.rope_length / (self.n - 1)
+        self.p = np.array(vector(values_of(model) | {"derived.element": self.element}))
+        self.names = tuple(REGISTRY)
+        self.kernels = compiled()
+        self.states = sum(one.states for one in REGISTRY.values())
+        self.state = empty(self.n, self.states, len(self.names))
+        self._trial = empty(self.n, self.states, len(self.names))
+        m = self.n + 1
+        sizes = (work.SECTIONS * m, work.BAND * m, band.FACTOR * m, (zone.ROW + 2) * 2 * m + 4, work.CONTACT * m + 4, 2 * m, work.TOUCH)
+        self._w, self._A, self._L, self._B, self._Z, self._r, self._touch = (np.zeros(size) for size in sizes)
+        self._power = np.zeros(len(self.names) + 1)
+
+    # -- at rest ---------------------------------------------------------------------------------
+
+    def settle(self, car: float, counterweight: float, outward: tuple[float, float] = (0.0, 0.0), time: float = 0.0) -> None:
+        """Hang the rope at rest with its ends at the heights `car`, `counterweight` [m].
+
+        `outward` are lateral displacements of the two ends [m]. Raises InputError when the rope cannot
+        reach, SimulationError when no shape at rest is found.
+        """
+        self.check_reach(car, counterweight, time)
+        s = empty(self.n, self.states, len(self.names))
+        s.time[0] = time
+        s.q[:] = self._guess(car, counterweight)
+        path = still(car, counterweight, outward, self.model.sheave.radius)
+        self.kernels.place(self.n, time, self.p, path, 1.0, 0.0, s.q, s.v, s.a)
+        s.v[:] = 0.0
+        s.a[:] = 0.0
+        if self._rest(s) < 0:
+            raise SimulationError(
+                f"no shape at rest was found with car end at {car:g} m, counterweight end at {counterweight:g} m "
+                f"and sheave.mass = {self.model.sheave.mass:g} kg"
+            )
+        self.state = s
+        self._start_ledger()
+
+    def _rest(self, s: State) -> int:
+        smooth = self.p.copy()
+        smooth[MU] = 0.0
+        return int(
+            self.kernels.hang(
+                self.n, smooth, s.q, s.v, self._w, s.f, self._touch, s.history, self._trial.history, self._power,
+                self._A, self._L, self._B, self._Z, self._r, self.element,
+            )
+        )  # fmt: skip
+
+    def _start_ledger(self) -> None:
+        s = self.state
+        self._evaluate()
+        s.history[:] = self._trial.history
+        ledger.store(self.n, self.p, s.q, s.v, self._w, self._touch, s.energy)
+        ledger.losses(self.n, self.p, s.v, self._w, self._touch, self._power, len(self.names), s.powers)
+        ledger.hold_forces(self.n, self.p, s.a, s.f, s.powers)
+        s.start[0] = s.energy[: len(ledger.STORED)].sum()
+
+    def check_reach(self, car: float, counterweight: float, time: float) -> None:
+        """Refuse ends [m] between which the rope cannot hang; raises InputError."""
+        m = self.model
+        lowest = 0.5 * (car + counterweight - (m.rope_length - pi * m.sheave.radius))
+        if min(car, counterweight) - lowest < m.sheave.radius:
+            raise InputError(
+                f"car_position = {car:g} m with counterweight_position = {counterweight:g} m at t = {time:g} s: the rope of "
+                f"{m.rope_length:g} m would hang the axle at {lowest:g} m; both ends at least sheave.radius = "
+                f"{m.sheave.radius:g} m above it are accepted"
+            )
+
+    def _guess(self, car: float, counterweight: float) -> Array:
+        """Straight sides and a half circle that hold the natural length."""
+        n, R = self.n, self.model.sheave.radius
+        axle = 0.5 * (self.model.rope_length - pi * R - car - counterweight)
+        s = np.arange(n) * self.element
+        left = car + axle
+        angle = np.clip((s - left) / R, 0.0, pi)
+        x = np.where(s < left, s - car, axle + R * np.sin(angle))
+        right = s > left + pi * R
+        x[right] = axle - (s[right] - left - pi * R)
+        return np.concatenate([x, [axle], -R * np.cos(angle), [0.0]])
+
+    # -- in motion -------------------------------------------------------------------------------
+
+    def step(self, dt: float, path: Array) -> None:
+        """Advance by dt [s] while the ends follow `path` (see `ends`; PATHS * PATH numbers).
+
+        Raises SimulationError where a time step could not be saved by halving it; the rope then stands
+        at the last accepted one.
+        """
+        s, t = self.state, self._trial
+        time = float(s.time[0])
+        steps = max(1, ceil(dt / self.model.solver.step * (1.0 - 1e-9)))
+        reached = self.kernels.advance(
+            self.n, time, dt, steps, self.p, path, s.q, s.v, s.a, s.f, s.history, t.q, t.v, t.a, t.f, t.history,
+            self._w, self._A, self._L, self._B, self._Z, self._r, self._touch, self._power, s.powers, t.powers,
+            s.energy, s.count, self.states * (self.n + 1), len(self.names),
+        )  # fmt: skip
+        if reached < 1.0:
+            raise SimulationError(self._where(time + reached * dt))
+        s.time[0] = time + dt
+
+    def _where(self, time: float) -> str:
+        m, worst = self.n + 1, int(self.state.count[WORST])
+        node = worst % m
+        place = "the sheave" if node == self.n else f"{node * self.element:.2f} m along the rope from the car"
+        height = -self.state.q[min(node, self.n)]
+        return (
+            f"the time step at t = {time:.6f} s did not converge even when halved to "
+            f"{self.model.solver.step / 4096:.1e} s; worst at {place}, height {height:.3f} m"
+        )
+
+    def _evaluate(self) -> None:
+        """Forces and workspace at the present state."""
+        s = self.state
+        self.kernels.evaluate(
+            self.n, float(s.time[0]), self.p, s.q, s.v, self._w, self._trial.f, self._touch, s.history,
+            self._trial.history, self._power, self._Z, 0.0, 0.0, False,
+        )  # fmt: skip
+
+    # -- what it shows ---------------------------------------------------------------------------
+
+    def lateral_displacement(self, side: str, height: float) -> tuple[float, bool]:
+        """Outward displacement [m] at a height on a side, and whether the rope is there.
+
+        Where the rope's end, or its lowest point, has passed the height, the value is that of the end
+        or of the lowest point.
+        """
+        s = SIDES[side]
+        y, seen = sight(self.n, self.state.q, s, -height, self.element)
+        return s * y - self.model.sheave.radius, bool(seen)
+
+    def maximum(self, side: str) -> tuple[float, float]:
+        """Largest outward displacement [m] on a side above the axle, and its height [m]."""
+        s = SIDES[side]
+        y, x = side_maximum(self.n, self.state.q, s)
+        return y - self.model.sheave.radius, -x
+
+    def outputs(self) -> Mapping[str, float]:
+        """Forces and motions of sheave and ends, in SI units, up positive."""
+        self._evaluate()
+        n, q, v, powers = self.n, self.state.q, self.state.v, np.zeros(4)
+        ledger.hold_forces(n, self.p, self.state.a, self._trial.f, powers)
+        return {
+            "sheave_force": -float(self._touch[work.FORCE_X]),
+            "sheave_displacement": self.model.shaft.pit - q[n],
+            "sheave_velocity": -v[n],
+            "sheave_angle": q[2 * n + 1],
+            "sheave_angular_velocity": v[2 * n + 1],
+            "car_end_tension": -powers[0],
+            "counterweight_end_tension": -powers[2],
+        }
+
+    def energies(self) -> dict[str, float]:
+        """The ledger [J]: stored energies, works and losses by name."""
+        names = [*ledger.STORED, "ends", *ledger.SPENT, *(f"effects.{name}" for name in self.names)]
+        return dict(zip(names, self.state.energy.tolist(), strict=True))
+
+    @property
+    def energy_residual(self) -> float:
+        """Stored energy less its start, less work put in, plus losses [J]; zero for an exact run."""
+        e, stored, spent = self.state.energy, len(ledger.STORED), len(ledger.SPENT)
+        losses = e[ledger.LOSSES : ledger.LOSSES + spent].sum()
+        return float(e[:stored].sum() - self.state.start[0] - e[ledger.ENDS_WORK] + losses - e[ledger.EFFECTS :].sum())
+
+    @property
+    def count(self) -> dict[str, int]:
+        """Time steps, Newton iterations and halvings so far."""
+        return {name: int(self.state.count[k]) for name, k in (("steps", STEPS), ("newton", NEWTON), ("halved", HALVED))}
+
+
+def still(car: float, counterweight: float, outward: tuple[float, float], radius: float) -> Array:
+    """A path on which the ends stay where they are."""
+    path = np.zeros((PATHS, PATH))
+    path[:, 0] = path[:, 3] = (-car, -radius - outward[0], -counterweight, radius + outward[1])
+    return path.ravel()

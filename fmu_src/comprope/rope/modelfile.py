@@ -1,0 +1,116 @@
+"""Model files: a rope model as TOML, read with all its problems reported at once, written whole or not at all."""
+
+import re
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from ..errors import InputError
+from ..explain import problems
+from ..whole import whole_file
+from .effects import REGISTRY, RopeModel, model_type
+
+_NO_KEY = "not the key of a single value in this model, such as sheave.mass or sensors[1].height"
+
+
+def load(path: str | Path) -> RopeModel:
+    """The rope model in a TOML file.
+
+    Raises `InputError` naming every problem of the file, one line each: key, value and what is accepted.
+    """
+    return validated(read_toml(path), str(path))
+
+
+def dump(model: RopeModel, path: str | Path, comment: str = "") -> None:
+    """Write the model as a TOML file that `load` reads back equal; `comment` heads the file.
+
+    The file appears whole or not at all. Raises `InputError` if it cannot be written.
+    """
+    import tomli_w  # needed for writing only, so that an FMU, which reads, does without it
+
+    table = as_table(model)
+    sensors = table.pop("sensors", [])
+    blocks = [tomli_w.dumps(table)] + [f"\n[[sensors]]\n{tomli_w.dumps(sensor)}" for sensor in sensors]
+    heading = "".join(f"# {line}".rstrip() + "\n" for line in comment.splitlines())
+    with whole_file(path) as temporary:
+        temporary.write_text(heading + "".join(blocks), encoding="utf-8", newline="\n")
+
+
+def with_changes(model: RopeModel, changes: Mapping[str, Any], source: str = "change") -> RopeModel:
+    """The model with some values replaced, e.g. `{"sheave.mass": 120.0, "effects.air_drag.drag_coefficient": 1.0}`.
+
+    A key is the path of a value in the model file; `sensors[1].height` is the first sensor's. Naming
+    a parameter of an absent effect brings the effect in. Raises `InputError` as `load` does, each
+    line begun by `source`, which tells where the changes come from.
+    """
+    table = as_table(model)
+    for key, value in changes.items():
+        try:
+            _assign(table, _path(key), value)
+        except LookupError:
+            raise InputError(f"{source}: {key} = {value}: {_NO_KEY}") from None
+    return validated(table, source)
+
+
+def validated(table: Mapping[str, Any], source: str) -> RopeModel:
+    """The model a table describes; `source` begins each line of the `InputError` if it describes none."""
+    kind = _type_with(tuple(REGISTRY.items()))
+    try:
+        return kind.model_validate(_frozen(table))
+    except ValidationError as error:
+        raise InputError("\n".join(f"{source}: {line}" for line in problems(error, kind))) from None
+
+
+def as_table(model: RopeModel) -> dict[str, Any]:
+    """The model as nested plain tables, absent effects left out, as it stands in a model file."""
+    table = model.model_dump(exclude_none=True)
+    table["sensors"] = list(table["sensors"])
+    return {key: value for key, value in table.items() if value not in ({}, [])}
+
+
+def read_toml(path: str | Path) -> dict[str, Any]:
+    """The tables of a TOML file; raises `InputError` if it is absent, unreadable, not UTF-8 or not TOML."""
+    try:
+        return tomllib.loads(Path(path).read_bytes().decode("utf-8-sig"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: not UTF-8 text (byte {error.start + 1}); save the file as UTF-8") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: not valid TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{path}: not valid TOML: nested too deeply") from None
+
+
+@cache
+def _type_with(_effects: tuple[tuple[str, type], ...]) -> type[RopeModel]:
+    """One type of model for one set of effects, so that models read apart can be equal."""
+    return model_type()
+
+
+def _frozen(value: Any) -> Any:
+    """The same tables with tuples for lists, as the frozen components want them."""
+    if isinstance(value, Mapping):
+        return {key: _frozen(item) for key, item in value.items()}
+    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+
+
+def _path(key: str) -> list[str | int]:
+    """`sensors[1].height` as `["sensors", 0, "height"]`."""
+    if not re.fullmatch(r"\w+(\[[1-9]\d*\])?(\.\w+(\[[1-9]\d*\])?)*", key):
+        raise LookupError(key)
+    return [int(part[1:]) - 1 if part.startswith("[") else part for part in re.findall(r"\[\d+|\w+", key)]
+
+
+def _assign(table: dict[str, Any], path: list[str | int], value: Any) -> None:
+    """Put a value at a path, making tables on the way; `LookupError` where the path leads nowhere."""
+    place: Any = table
+    for part in path[:-1]:
+        place = place.setdefault(part, {}) if isinstance(place, dict) else place[part] if isinstance(place, list) else None
+    if not isinstance(place, dict):
+        raise LookupError(path)
+    place[path[-1]] = value

@@ -1,0 +1,145 @@
+"""Newmark-beta time step of eq. (1) and (2), solved by Newton's method.
+
+Acceleration a is the unknown; q and v follow from it by Newmark's rule with beta = (1 + alpha)^2 / 4
+and gamma = 1/2 + alpha, and the forces are weighted (1 - alpha) f_new + alpha f_old (Hilber, Hughes
+and Taylor 1977). alpha = 0 is the paper's rule (1/4, 1/2).
+
+The tangent is factored once per step and again only when the corrections do not shrink fast. A
+correction below `TOLERANCE` metres ends the iteration. A step that does not converge is restored and
+halved, up to `DEEPEST` times; what is accepted has always converged.
+"""
+
+from math import isfinite
+
+from .band import factor, inwards, outwards
+from .dynamics import forces, node_mass, tangent_band
+from .ends import place_ends
+from .jit import kernel
+from .slots import ALPHA, M, R, J
+from .work import FIRST, LAST
+from .zone import factor_zone, fill, solve_zone
+
+TOLERANCE = 1e-8  # m
+ITERATIONS = 12
+SLOW = 0.1  # a correction that shrinks by less than this asks for a new tangent
+DEEPEST = 12  # halvings of one step
+
+# Entries of `count`: what the run has cost so far, and where a failed step went wrong.
+STEPS, NEWTON, FACTORED, HALVED, WORST = range(5)
+COUNTS = 5
+
+
+@kernel
+def predict(n, p, h, q0, v0, a0, q, v, a):
+    """Start of the iteration: the acceleration stays what it was."""
+    for i in range(2 * (n + 1)):
+        a[i] = a0[i]
+        v[i] = v0[i] + h * a0[i]
+        q[i] = q0[i] + h * (v0[i] + 0.5 * h * a0[i])
+
+
+@kernel
+def residual(n, p, a, f, f0, r):
+    """Set r = (1 - alpha) f + alpha f_old - M a; prescribed ends have none."""
+    m, alpha, mass = n + 1, p[ALPHA], node_mass(p)
+    for i in range(1, n - 1):
+        r[i] = (1.0 - alpha) * f[i] + alpha * f0[i] - mass * a[i]
+        r[m + i] = (1.0 - alpha) * f[m + i] + alpha * f0[m + i] - mass * a[m + i]
+    r[n] = (1.0 - alpha) * f[n] + alpha * f0[n] - p[M] * a[n]
+    r[m + n] = (1.0 - alpha) * f[m + n] + alpha * f0[m + n] - p[J] * a[m + n]
+    for i in (0, n - 1):
+        r[i] = 0.0
+        r[m + i] = 0.0
+
+
+@kernel
+def correct(n, p, h, r, q, v, a, count):
+    """Add the correction r of the acceleration; returns the largest change of position [m]."""
+    m, alpha = n + 1, p[ALPHA]
+    beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
+    largest = 0.0
+    for i in range(2 * m):
+        change = beta * h * h * r[i]
+        a[i] += r[i]
+        v[i] += gamma * h * r[i]
+        q[i] += change
+        size = abs(change) if i < m + n else abs(change) * p[R]
+        if not size <= largest:
+            largest = size
+            count[WORST] = i
+    return largest
+
+
+@kernel
+def renew(n, t, p, h, q, v, w, A, L, B, Z, touch):
+    """Assemble and factor the tangent of the last evaluation of the forces."""
+    alpha = p[ALPHA]
+    ck = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h
+    cc = (1.0 - alpha) * (0.5 + alpha) * h
+    first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
+    tangent_band(n, t, p, q, v, w, A, 1.0, ck, cc)
+    factor(n, A, L, first, last)
+    fill(n, A, Z, B, first, last)
+    factor_zone(2 * (last - first + 1), B)
+
+
+@kernel
+def solve(n, L, B, r, first, last):
+    """Solve the factored tangent for r, in place."""
+    inwards(n, L, r, first, last)
+    solve_zone(n, B, r, first, last)
+    outwards(n, L, r, first, last)
+
+
+@kernel
+def attempt(
+    n, t, h, p, path, dt, s, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, count,
+):  # fmt: skip
+    """Try one step of length h that ends at time t; s is that time as a fraction of the path's dt.
+
+    Returns True when Newton's iteration has converged.
+    """
+    alpha = p[ALPHA]
+    ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
+    predict(n, p, h, q0, v0, a0, q, v, a)
+    place_ends(n, t, p, path, dt, s, q, v, a)
+    before, fresh, first, last = 1e300, True, 0, 0
+    for _ in range(ITERATIONS):
+        forces(n, t, p, q, v, w, f, touch, h0, h1, power, Z, ck, cc, fresh)
+        residual(n, p, a, f, f0, r)
+        if fresh:
+            renew(n, t, p, h, q, v, w, A, L, B, Z, touch)
+            first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
+            count[FACTORED] += 1
+        solve(n, L, B, r, first, last)
+        change = correct(n, p, h, r, q, v, a, count)
+        count[NEWTON] += 1
+        if not isfinite(change):
+            return False
+        if change < TOLERANCE:
+            settle_forces(n, p, a, f0, f)
+            return True
+        fresh = change > SLOW * before
+        before = change
+    return False
+
+
+@kernel
+def settle_forces(n, p, a, f0, f):
+    """Forces that balance the accepted accelerations exactly, from the weighted balance of the step.
+
+    The ends keep the forces of the last evaluation.
+    """
+    m, alpha, mass = n + 1, p[ALPHA], node_mass(p)
+    for i in range(1, n - 1):
+        f[i] = (mass * a[i] - alpha * f0[i]) / (1.0 - alpha)
+        f[m + i] = (mass * a[m + i] - alpha * f0[m + i]) / (1.0 - alpha)
+    f[n] = (p[M] * a[n] - alpha * f0[n]) / (1.0 - alpha)
+    f[m + n] = (p[J] * a[m + n] - alpha * f0[m + n]) / (1.0 - alpha)
+
+
+@kernel
+def copy(size, source, target):
+    """Copy `size` numbers."""
+    for i in range(size):
+        target[i] = source[i]

@@ -1,0 +1,43 @@
+"""Files written whole or not at all: into a temporary neighbour, renamed when it is complete."""
+
+import os
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from .errors import InputError
+
+
+@contextmanager
+def whole_file(path: str | Path) -> Iterator[Path]:
+    """A temporary path to write to, which becomes `path` when the block ends, and vanishes when it fails.
+
+    Missing folders are made. Raises `InputError` if the file cannot be written.
+    """
+    target = Path(path)
+    temporary = target.with_name(f".{target.stem}-{uuid.uuid4().hex}{target.suffix}")
+    try:
+        require_writable(target)
+        yield temporary
+        temporary.replace(target)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def require_writable(path: str | Path) -> None:
+    """Make the folder of a file to come; raises `InputError` if the file could not be written there.
+
+    Asked before a long computation, so that it is not lost for a mistyped path.
+    """
+    target = Path(path)
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{path}: its folder cannot be made: {error.strerror}") from None
+    if target.is_dir():
+        raise InputError(f"{path}: is a folder; give the name of a file")
+    if not os.access(target.parent, os.W_OK):
+        raise InputError(f"{path}: the folder cannot be written to")

@@ -1,0 +1,75 @@
+"""The columns of a simulated trip: what the CSV file holds, in which unit, and where it comes from."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from comprope.errors import InputError
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column: `output` of the participant `source`."""
+
+    name: str
+    unit: str
+    help: str
+    source: str
+    output: str
+
+
+def _motion(name: str, unit: str, help: str) -> Column:
+    return Column(name, unit, help, "motion", name)
+
+
+def _rope(name: str, unit: str, help: str) -> Column:
+    return Column(name, unit, help, "rope", name)
+
+
+MOTION = (
+    _motion("car_position", "m", "height of the car above the bottom landing"),
+    _motion("car_velocity", "m/s", "up positive"),
+    _motion("car_acceleration", "m/s2", "up positive"),
+    _motion("counterweight_position", "m", "height of the counterweight above the bottom landing"),
+)
+TORQUE = _motion("motor_torque", "N.m", "torque of the drive's motor")
+ROPE = (
+    _rope("sheave_displacement", "m", "of the sheave's axle from `pit` below the bottom landing, up positive"),
+    _rope("sheave_velocity", "m/s", "of the sheave's axle, up positive"),
+    _rope("sheave_angle", "rad", "turn of the sheave, positive while the car goes up"),
+    _rope("sheave_angular_velocity", "rad/s", "positive while the car goes up"),
+    _rope("sheave_force", "N", "force of the rope on the sheave, up positive"),
+    _rope("car_end_tension", "N", "pull of the rope on the car"),
+    _rope("counterweight_end_tension", "N", "pull of the rope on the counterweight"),
+    _rope("car_side_max_displacement", "m", "largest outward displacement on the car side"),
+    _rope("car_side_max_height", "m", "height at which it is, above the bottom landing"),
+    _rope("counterweight_side_max_displacement", "m", "largest outward displacement on the counterweight side"),
+    _rope("counterweight_side_max_height", "m", "height at which it is, above the bottom landing"),
+    _rope("energy_residual", "J", "energy not accounted for; zero for an exact solution"),
+    _rope("newton_iterations", "1", "Newton iterations so far"),
+    _rope("halvings", "1", "time steps halved so far because they did not converge"),
+)
+
+
+def columns(sensors: Sequence[str], driven: bool) -> list[Column]:
+    """The columns of a trip with these sensors' names, in the order of the file; `driven`: by the drive, not as measured.
+
+    Raises `InputError` where a sensor has the name of another column.
+    """
+    fixed = [*MOTION, *ROPE, *([TORQUE] if driven else [])]
+    if taken := sorted(set(sensors) & {"time", *(one.name for one in fixed)}):
+        raise InputError(f"sensors: the name {taken[0]} is that of another column; choose another name")
+    lateral = [
+        Column(name, "m", "lateral displacement at this sensor, outward; empty where the rope's end has passed", "rope", output)
+        for name, output in zip(sensors, map(lateral_output, range(len(sensors))), strict=True)
+    ]
+    return [*MOTION, *lateral, *fixed[len(MOTION) :]]
+
+
+def lateral_output(sensor: int) -> str:
+    """The rope's output for the sensor of this index, from 0."""
+    return f"lateral_displacement[{sensor + 1}]"
+
+
+def view_output(sensor: int) -> str:
+    """The rope's output that tells whether the sensor of this index, from 0, sees the rope."""
+    return f"in_view[{sensor + 1}]"

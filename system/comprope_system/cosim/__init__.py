@@ -1,0 +1,5 @@
+"""Co-simulation of drive and rope, as FMUs or directly, in one and the same order."""
+
+from .master import Connection, Participant, Sample, co_simulate
+
+__all__ = ["Connection", "Participant", "Sample", "co_simulate"]

@@ -1,0 +1,159 @@
+"""An FMU as a participant, stepped through fmpy; whatever it refuses is told in its own words."""
+
+import io
+import shutil
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, redirect_stderr, suppress
+from ctypes import byref
+from pathlib import Path
+from typing import Any
+
+import fmpy
+from fmpy import fmi2
+from fmpy.fmi1 import FMICallException
+
+from comprope.errors import CompropeError, InputError, SimulationError
+
+_CASTS: dict[str, Callable[[Any], Any]] = {"Real": float, "Integer": int, "Boolean": bool, "String": str}
+
+
+class FmuParticipant:
+    """One instance of an FMI 2.0 co-simulation FMU; to be closed, best by `with`.
+
+    Raises `InputError` for parameters that the FMU does not have or refuses, `SimulationError` if it cannot
+    be loaded or a step fails.
+    """
+
+    def __init__(self, name: str, path: Path, parameters: Mapping[str, Any]) -> None:
+        self.name = name
+        self._parameters = dict(parameters)
+        self._messages: list[str] = []
+        self._running = self._failed = False
+        self._folder = fmpy.extract(str(path))
+        try:
+            description = fmpy.read_model_description(self._folder)
+            self._variables = {one.name: one for one in description.modelVariables}
+            self._outputs = [one.name for one in description.modelVariables if one.causality == "output"]
+            self._instance = self._instantiated(description)
+        except BaseException:
+            shutil.rmtree(self._folder, ignore_errors=True)
+            raise
+
+    def __enter__(self) -> "FmuParticipant":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def prepare(self, start: float) -> None:
+        """See `Participant`."""
+        with self._calls():
+            self._instance.setupExperiment(startTime=start)
+        self.set(self._parameters)
+        with self._calls():
+            self._instance.enterInitializationMode()
+
+    def set(self, values: Mapping[str, Any]) -> None:
+        """See `Participant`."""
+        for kind, names in self._by_kind(list(values)).items():
+            with self._calls():
+                setter = getattr(self._instance, f"set{kind}")
+                setter(self._references(names), [_CASTS[kind](values[name]) for name in names])
+
+    def outputs(self) -> dict[str, Any]:
+        """See `Participant`."""
+        values: dict[str, Any] = {}
+        for kind, names in self._by_kind(self._outputs).items():
+            with self._calls():
+                got = getattr(self._instance, f"get{kind}")(self._references(names))
+            values |= {name: _CASTS[kind](value) for name, value in zip(names, got, strict=True)}
+        return values
+
+    def begin(self) -> None:
+        """See `Participant`."""
+        with self._calls():
+            self._instance.exitInitializationMode()
+        self._running = True
+
+    def step(self, time: float, dt: float) -> None:
+        """See `Participant`."""
+        with self._calls():
+            self._instance.doStep(currentCommunicationPoint=time, communicationStepSize=dt)
+
+    def close(self) -> None:
+        """Free the instance and remove its unpacked files; harmless when done already."""
+        instance, self._instance = self._instance, None
+        if instance is None:
+            return
+        with redirect_stderr(io.StringIO()), suppress(Exception):
+            if self._running and not self._failed:
+                instance.terminate()
+        with redirect_stderr(io.StringIO()), suppress(Exception):
+            instance.freeInstance()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def _instantiated(self, description: Any) -> Any:
+        instance = fmi2.FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=self._folder,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName=self.name,
+        )
+        self._callbacks = _callbacks(self._messages)
+        errors = io.StringIO()
+        try:
+            with redirect_stderr(errors):
+                instance.instantiate(callbacks=self._callbacks, loggingOn=True)
+        except Exception as error:
+            told = errors.getvalue().strip().splitlines() or self._messages or [str(error)]
+            raise SimulationError(f"{self.name}: the FMU cannot be instantiated: {told[-1]}") from None
+        return instance
+
+    @contextmanager
+    def _calls(self) -> Iterator[None]:
+        """Turn a failed call into an error with the FMU's own message.
+
+        The message comes by the logger; what the FMU writes to standard error besides would only repeat it.
+        """
+        self._messages.clear()
+        errors = io.StringIO()
+        try:
+            with redirect_stderr(errors):
+                yield
+        except FMICallException as error:
+            self._failed = True
+            told = self._messages or errors.getvalue().strip().splitlines() or [str(error)]
+            raise self._error_type()(f"{self.name}: {told[-1]}") from None
+
+    def _error_type(self) -> type[CompropeError]:
+        return SimulationError if self._running else InputError
+
+    def _by_kind(self, names: list[str]) -> dict[str, list[str]]:
+        groups: dict[str, list[str]] = defaultdict(list)
+        for name in names:
+            if name not in self._variables:
+                raise InputError(f"{self.name}: {name} is not one of the FMU's variables")
+            groups[self._variables[name].type].append(name)
+        return groups
+
+    def _references(self, names: list[str]) -> list[int]:
+        return [self._variables[name].valueReference for name in names]
+
+
+def _callbacks(messages: list[str]) -> Any:
+    """FMI callbacks whose logger collects the texts of warnings and errors."""
+
+    def log(_environment: Any, _instance: bytes, status: int, _category: bytes, message: bytes) -> None:
+        if status != fmi2.fmi2OK:
+            messages.append((message or b"").decode("utf-8", "replace").strip())
+
+    callbacks = fmi2.fmi2CallbackFunctions()
+    callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(log)
+    callbacks.allocateMemory = fmi2.fmi2CallbackAllocateMemoryTYPE(fmi2.calloc)
+    callbacks.freeMemory = fmi2.fmi2CallbackFreeMemoryTYPE(fmi2.free)
+    with suppress(Exception):  # where fmpy has no such proxy, a message's arguments stay unformatted
+        from fmpy.logging import addLoggerProxy
+
+        addLoggerProxy(byref(callbacks))
+    return callbacks

@@ -1,0 +1,68 @@
+"""A smooth trip: position, velocity and acceleration of the car at any time, at rest before and after."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Curve = Callable[..., NDArray[np.float64]]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A curve `curve(t, derivative)` between `start` and `stop` [s], constant outside."""
+
+    curve: Curve
+    start: float
+    stop: float
+
+    def value(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The curve's value, held before `start` and after `stop`."""
+        return self.curve(np.clip(time, self.start, self.stop))
+
+    def derivative(self, time: NDArray[np.float64], order: int) -> NDArray[np.float64]:
+        """The curve's derivative, exactly zero outside."""
+        inside = (time > self.start) & (time < self.stop)
+        return np.where(inside, self.curve(np.clip(time, self.start, self.stop), order), 0.0)
+
+
+@dataclass(frozen=True)
+class Trip:
+    """A trip as a sum of pieces.
+
+    `noise` [m] is one standard deviation of the signal it was recovered from. The car is exactly at
+    rest until `rest_before` and from `rest_after` on [s]; `rest_after` is infinite when the record
+    ends before the trip does. `kind` tells how the trip was described.
+    """
+
+    pieces: tuple[Piece, ...]
+    noise: float
+    kind: str
+
+    @property
+    def rest_before(self) -> float:
+        """The time until which the car is at rest [s]."""
+        return min((piece.start for piece in self.pieces), default=-np.inf)
+
+    @property
+    def rest_after(self) -> float:
+        """The time from which the car is at rest again [s]."""
+        return max((piece.stop for piece in self.pieces), default=np.inf)
+
+    def position(self, time: ArrayLike) -> NDArray[np.float64]:
+        """Height of the car [m] at `time` [s], any shape."""
+        t = np.asarray(time, dtype=float)
+        return sum((piece.value(t) for piece in self.pieces), np.zeros(t.shape))
+
+    def velocity(self, time: ArrayLike) -> NDArray[np.float64]:
+        """Velocity of the car [m/s] at `time` [s], any shape."""
+        return self._derivative(time, 1)
+
+    def acceleration(self, time: ArrayLike) -> NDArray[np.float64]:
+        """Acceleration of the car [m/s2] at `time` [s], any shape."""
+        return self._derivative(time, 2)
+
+    def _derivative(self, time: ArrayLike, order: int) -> NDArray[np.float64]:
+        t = np.asarray(time, dtype=float)
+        return sum((piece.derivative(t, order) for piece in self.pieces), np.zeros(t.shape))

@@ -1,0 +1,1 @@
+"""A mass on a spring: the smallest model with hidden state, to test the face with."""

@@ -1,0 +1,135 @@
+"""The hoist and its servo: statics, resonances, margins, and the sampled design."""
+
+import control
+import numpy as np
+import pytest
+
+from comprope.drive.cells import cells
+from comprope.drive.hoist import T_C, T_W, V_C, V_S, X_C, X_W, S, holding_force, lumps, moving_mass, state_space
+from comprope.drive.parameters import Drive, Plant, Servo, Shaft
+from comprope.drive.servo import continuous_speed_control, design, sampled_speed_control
+from comprope.drive.stability import margins, open_loop, unstable_positions
+from comprope.drive.trajectory import Motion
+
+DRIVE = Drive()
+POSITIONS = [0.0, 10.0, 25.0, 50.0]
+
+
+@pytest.mark.parametrize("position", POSITIONS)
+def test_moving_mass_is_the_same_everywhere(position: float) -> None:
+    parts = lumps(DRIVE, position)
+    assert parts.sheave + parts.car + parts.counterweight == pytest.approx(moving_mass(DRIVE), rel=1e-14)
+    rope = DRIVE.plant.rope_mass_per_length * (2 * DRIVE.plant.headroom + DRIVE.shaft.height)
+    bodies = DRIVE.plant.car_mass + DRIVE.plant.counterweight_mass + DRIVE.plant.machine_inertia / DRIVE.plant.sheave_radius**2
+    assert moving_mass(DRIVE) == pytest.approx(bodies + rope, rel=1e-14)
+
+
+@pytest.mark.parametrize("position", [0.0, 10.0, 25.0])
+def test_the_model_rests_wherever_the_holding_force_holds_it(position: float) -> None:
+    way, hoist = 3.0, state_space(DRIVE, position)
+    x = np.zeros(8)
+    x[S] = x[X_C] = way
+    x[X_W] = -way
+    half = 0.5 * DRIVE.plant.rope_mass_per_length * DRIVE.shaft.gravity * way  # what each side's mean tension has lost, gained
+    x[T_C], x[T_W] = -half, half
+    force = holding_force(DRIVE, position + way, 0.0, 0.0) - holding_force(DRIVE, position, 0.0, 0.0)
+    assert hoist.A @ x + hoist.B @ [force, 0.0, 0.0] == pytest.approx(np.zeros(8), abs=1e-12)
+
+
+def test_holding_force_weighs_all_that_hangs() -> None:
+    ropes = 2.4 * 9.81 * (54.0 - 4.0)
+    assert holding_force(DRIVE, 0.0, 1000.0, 700.0) == pytest.approx((2000.0 - 2300.0) * 9.81 + ropes + 300.0)
+
+
+def test_car_swings_on_its_rope_at_the_frequency_of_spring_and_mass() -> None:
+    drive = Drive(plant=Plant(rope_mass_per_length=0.0, rope_damping=0.0))
+    hoist = state_space(drive, 0.0)
+    keep = [V_C, T_C]  # the sheave held
+    frequencies = np.abs(np.linalg.eigvals(hoist.A[np.ix_(keep, keep)]))
+    assert frequencies == pytest.approx([np.sqrt(3e7 / 54.0 / 2000.0)] * 2, rel=1e-12)
+
+
+def test_a_slow_pull_at_the_rim_moves_all_masses_alike() -> None:
+    hoist = state_space(Drive(plant=Plant(rope_mass_per_length=0.0)), 25.0)
+    mass = moving_mass(Drive(plant=Plant(rope_mass_per_length=0.0)))
+    slow = 1e-3j
+    response = hoist(slow)[:, 0] * mass * slow  # velocities over those of a rigid hoist
+    assert response[V_S] == pytest.approx(1.0, abs=1e-6)
+    assert response[V_C] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_speed_control_places_the_poles_on_rigid_ropes() -> None:
+    servo = Servo(speed_bandwidth=9.0, speed_damping=0.6)
+    drive = Drive(servo=servo)
+    rigid = control.tf([1.0], [moving_mass(drive), 0.0])
+    poles = control.feedback(continuous_speed_control(drive) * rigid, 1).poles()
+    assert np.abs(poles) == pytest.approx([9.0, 9.0], rel=1e-9)
+    assert -poles.real / np.abs(poles) == pytest.approx([0.6, 0.6], rel=1e-9)
+
+
+def test_the_law_is_the_sampled_speed_control() -> None:
+    law, errors, integral, forces = design(DRIVE), [0.1, -0.02, 0.05, 0.0, 0.3], 0.0, []
+    for error in errors:
+        force, integral = law.force(integral, Motion(0.0, error), 0.0, 0.0, (-1e9, 1e9))
+        forces.append(force)
+    response = control.forced_response(sampled_speed_control(DRIVE), inputs=errors)
+    assert forces == pytest.approx(list(response.outputs), rel=1e-12)
+
+
+def test_the_integral_waits_while_the_motor_is_at_its_limit() -> None:
+    law = design(DRIVE)
+    assert law.force(0.5, Motion(0.0, 1.0), 0.0, 0.0, (-10.0, 10.0)) == (10.0, 0.5)
+    force, integral = law.force(0.5, Motion(0.0, -1.0), 0.0, 0.0, (-1e9, 1e9))
+    assert integral < 0.5
+
+
+@pytest.mark.parametrize("position", POSITIONS)
+def test_margins_are_ample(position: float) -> None:
+    found = margins(DRIVE, position)
+    assert found.gain_rise > 4.0
+    assert found.gain_fall > 4.0
+    assert found.phase > 45.0
+    assert found.distance > 0.8
+
+
+@pytest.mark.parametrize("position", [0.0, 25.0])
+def test_gain_margins_are_where_stability_ends(position: float) -> None:
+    found, loop = margins(DRIVE, position), open_loop(DRIVE, position)
+    for factor, stable in ((found.gain_rise, 1.01), (1.0 / found.gain_fall, 0.99)):
+        inside, outside = factor / stable, factor * stable
+        assert max(abs(control.feedback(inside * loop, 1).poles())) < 1.0
+        assert max(abs(control.feedback(outside * loop, 1).poles())) > 1.0
+
+
+def test_phase_margin_is_the_delay_that_stability_bears() -> None:
+    found, period = margins(DRIVE, 25.0), DRIVE.servo.sample_period
+    bears = np.deg2rad(found.phase) / found.crossover / period  # samples
+    z = control.tf([1.0], [1.0, 0.0], period)
+    loop = open_loop(DRIVE, 25.0)
+    whole = control.ss(np.eye(1), 0 * np.eye(1), np.eye(1), np.eye(1), period)
+    assert bears > 2.0
+    assert max(abs(control.feedback(loop * control.ss(z) * control.ss(z) * whole.D, 1).poles())) < 1.0
+
+
+def test_wild_gains_are_found_out() -> None:
+    assert unstable_positions(DRIVE) == []
+    assert unstable_positions(Drive(servo=Servo(speed_bandwidth=150.0))) == [0.0, 25.0, 50.0]
+
+
+def test_cells_step_like_python_control_and_divide_exactly() -> None:
+    grid = cells(DRIVE)
+    cell = grid.at(0.0)
+    sampled = control.sample_system(state_space(DRIVE, 0.0), DRIVE.servo.sample_period, method="zoh")
+    full = np.concatenate([np.random.default_rng(1).normal(size=8), [100.0, 20.0, -30.0]])
+    whole, parts = full.copy(), full.copy()
+    grid.period(cell, whole)
+    for share in (0.3, 0.0001, 0.6999):
+        grid.part(cell, parts, share * DRIVE.servo.sample_period)
+    assert whole[:8] == pytest.approx(sampled.A @ full[:8] + sampled.B @ full[8:], rel=1e-9)
+    assert parts == pytest.approx(whole, rel=1e-9)
+
+
+def test_neighbouring_cells_differ_little() -> None:
+    tall = Drive(shaft=Shaft(height=500.0))
+    stiffness = np.array([rate[T_C, V_C] for rate in cells(tall).rates])
+    assert np.max(np.abs(np.diff(np.log(np.abs(stiffness))))) < 0.0101
