@@ -79,7 +79,7 @@ def test_the_law_is_the_sampled_speed_control() -> None:
 def test_the_integral_waits_while_the_motor_is_at_its_limit() -> None:
     law = design(DRIVE)
     assert law.force(0.5, Motion(0.0, 1.0), 0.0, 0.0, (-10.0, 10.0)) == (10.0, 0.5)
-    force, integral = law.force(0.5, Motion(0.0, -1.0), 0.0, 0.0, (-1e9, 1e9))
+    _, integral = law.force(0.5, Motion(0.0, -1.0), 0.0, 0.0, (-1e9, 1e9))
     assert integral < 0.5
 
 
@@ -106,9 +106,8 @@ def test_phase_margin_is_the_delay_that_stability_bears() -> None:
     bears = np.deg2rad(found.phase) / found.crossover / period  # samples
     z = control.tf([1.0], [1.0, 0.0], period)
     loop = open_loop(DRIVE, 25.0)
-    whole = control.ss(np.eye(1), 0 * np.eye(1), np.eye(1), np.eye(1), period)
     assert bears > 2.0
-    assert max(abs(control.feedback(loop * control.ss(z) * control.ss(z) * whole.D, 1).poles())) < 1.0
+    assert max(abs(control.feedback(loop * z * z, 1).poles())) < 1.0
 
 
 def test_wild_gains_are_found_out() -> None:

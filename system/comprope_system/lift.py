@@ -40,20 +40,20 @@ class Lift:
     driven: bool
 
 
-def load_drive(path: str | Path | None, changes: Mapping[str, Mapping[str, float]] | None = None) -> Drive:
+def load_drive(path: str | Path | None, changes: Mapping[str, Mapping[str, Any]] | None = None) -> Drive:
     """The drive of a parameter file (tables as `[profile]`), with `changes` by table and key on top of it.
 
     Raises `InputError` naming all problems, as for model files.
     """
-    table = read_toml(path) if path else {}
-    for section, values in (changes or {}).items():
-        place = table.setdefault(section, {})
-        if isinstance(place, dict):
-            place.update(values)
+    table, asked = read_toml(path) if path else {}, dict(changes or {})
+    _validated(table, str(path))
+    return _validated({key: {**table.get(key, {}), **asked.get(key, {})} for key in {*table, *asked}}, "drive")
+
+
+def _validated(table: Mapping[str, Any], source: str) -> Drive:
     try:
         return Drive.model_validate(table)
     except ValidationError as error:
-        source = str(path) if path else "drive"
         raise InputError("\n".join(f"{source}: {line}" for line in problems(error, Drive))) from None
 
 

@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from comprope.errors import InputError
 from comprope.whole import whole_file
 
 from .columns import Column, columns, lateral_output, view_output
@@ -40,6 +42,13 @@ class Timing:
     step: float = 0.01
     coupling: Coupling = "two-way"
 
+    def __post_init__(self) -> None:
+        """Raises `InputError` for impossible times."""
+        if not 0.0 < self.duration < inf:
+            raise InputError(f"duration = {self.duration:g} s: a number above 0 is accepted")
+        if not 0.0 < self.step <= self.duration:
+            raise InputError(f"communication step = {self.step:g} s: above 0 to the duration, {self.duration:g} s, is accepted")
+
 
 def simulate(lift: Lift, sensors: Sequence[str], timing: Timing, progress: Progress | None = None) -> Simulated:
     """Run the lift from time 0 and record every communication step.
@@ -69,13 +78,17 @@ def summary(simulated: Simulated) -> list[tuple[str, str]]:
     end = table.iloc[-1]
     return [
         ("duration", f"{end['time']:.2f} s"),
-        ("car", f"{table['car_position'].iloc[0]:.2f} m to {end['car_position']:.2f} m"),
+        ("car", f"{_height(table['car_position'].iloc[0])} to {_height(end['car_position'])}"),
         *((f"peak at {name}", _peak(table, name)) for name in simulated.sensors),
         ("sheave force", f"{force.min():.1f} N to {force.max():.1f} N"),
         ("sheave displacement", f"{_range(table['sheave_displacement'])} mm"),
         ("energy residual", f"{table['energy_residual'].abs().max():.2g} J at most"),
         ("Newton iterations", f"{end['newton_iterations']:.0f}, {end['halvings']:.0f} steps halved"),
     ]
+
+
+def _height(value: float) -> str:
+    return f"{round(value, 2) + 0.0:.2f} m"
 
 
 def _peak(table: pd.DataFrame, name: str) -> str:

@@ -50,7 +50,7 @@ def margins(drive: Drive, position: float) -> Margins:
     nearest = int(np.argmin(np.abs(phases)))
     return Margins(
         float(min(gains[gains > 1.0], default=np.inf)),
-        float(1.0 / max(gains[gains < 1.0], default=0.0)) if any(gains < 1.0) else float("inf"),
+        float(min(1.0 / gains[gains < 1.0], default=np.inf)),
         float(phases[nearest]),
         float(crossovers[nearest]),
         float(min(distances)),

@@ -52,9 +52,14 @@ import sys
 
 try:
     from {package}.bundled import Slave
+    from {package}.fmi.failure import keep_alive
 except Exception as error:
     sys.stderr and sys.stderr.write("{name} cannot be loaded: %s. It needs {needs}.\\n" % error)
     raise
+
+if locals() is not globals():
+    # Run by pythonfmu 0.7.0 for one more instance; it then gives up a reference to this module's names that is not its own.
+    keep_alive(globals())
 
 
 class {name}(Slave):

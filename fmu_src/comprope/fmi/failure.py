@@ -10,6 +10,7 @@ would be right, but pythonfmu's binary offers no way to return it.)
 import ctypes
 import sys
 import traceback
+from pathlib import Path
 from typing import Any
 
 from ..errors import CompropeError
@@ -27,7 +28,7 @@ def sentence(error: BaseException) -> str:
     if isinstance(error, CompropeError):
         return "; ".join(str(error).splitlines())
     frames = traceback.extract_tb(error.__traceback__)
-    place = f" in {frames[-1].name}, {frames[-1].filename}:{frames[-1].lineno}" if frames else ""
+    place = f" in {frames[-1].name}, {Path(frames[-1].filename).name}:{frames[-1].lineno}" if frames else ""
     detail = " ".join(str(error).split())
     return f"internal error: {type(error).__name__}{place}" + (f": {detail}" if detail else "")
 

@@ -99,7 +99,7 @@ class Run:
     def _variable(self, kind: Kind, ref: int) -> Variable:
         variables = self.interface.variables
         if not 0 <= ref < len(variables) or variables[ref].kind != kind:
-            raise InputError(f"value reference {ref}: not that of a {kind} variable of this FMU")
+            raise InputError(f"value reference {ref}: not of type {kind}")
         return variables[ref]
 
     def _value(self, variable: Variable) -> Value:

@@ -17,15 +17,25 @@ FACTOR = 11
 
 
 @kernel
-def eliminate(m, A, L, i, j, k, ebase, gbase, cross, back):
+def forward(m, L, r, i, j, k):
+    """Carry the right-hand side r of node i to its neighbours j and k."""
+    x, y = r[i], r[m + i]
+    r[j] -= L[3 * m + i] * x + L[5 * m + i] * y
+    r[m + j] -= L[4 * m + i] * x + L[6 * m + i] * y
+    r[k] -= L[7 * m + i] * x + L[9 * m + i] * y
+    r[m + k] -= L[8 * m + i] * x + L[10 * m + i] * y
+
+
+@kernel
+def eliminate(m, A, L, r, i, j, k, ebase, gbase, cross, back):
     """Eliminate node i, which couples to nodes j (next) and k (after next), and update their blocks.
 
     `ebase`, `gbase` are the columns that hold the blocks i-j and i-k, `cross` the one of j-k; with
-    `back` (1 from the right end) these blocks are stored transposed.
+    `back` (1 from the right end) these blocks are stored transposed. The right-hand side r follows.
     """
     dxx, dxy, dyy = A[DXX * m + i], A[DXY * m + i], A[DYY * m + i]
-    r = 1.0 / (dxx * dyy - dxy * dxy)
-    ixx, ixy, iyy = dyy * r, -dxy * r, dxx * r
+    one = 1.0 / (dxx * dyy - dxy * dxy)
+    ixx, ixy, iyy = dyy * one, -dxy * one, dxx * one
     s, u = EXY + back, EYX - back
     exx, exy, eyx, eyy = A[EXX * m + ebase], A[s * m + ebase], A[u * m + ebase], A[EYY * m + ebase]
     o, w = GXY + back, GYX - back
@@ -47,32 +57,25 @@ def eliminate(m, A, L, i, j, k, ebase, gbase, cross, back):
     A[DXX * m + k] -= gxx * bxx + gyx * byx
     A[DXY * m + k] -= gxx * bxy + gyx * byy
     A[DYY * m + k] -= gxy * bxy + gyy * byy
+    forward(m, L, r, i, j, k)
 
 
 @kernel
-def factor(n, A, L, first, last):
-    """Eliminate nodes 0 .. first-1 and n-1 .. last+1; A keeps the Schur complement of first .. last."""
+def factor(n, A, L, r, first, last):
+    """Eliminate nodes 0 .. first-1 and n-1 .. last+1; A keeps the Schur complement of first .. last.
+
+    The right-hand side r is carried along, as `inwards` would do it."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(both):
         i = n - 1 - e
-        eliminate(m, A, L, e, e + 1, e + 2, e, e, e + 1, 0)
-        eliminate(m, A, L, i, i - 1, i - 2, i - 1, i - 2, i - 2, 1)
+        eliminate(m, A, L, r, e, e + 1, e + 2, e, e, e + 1, 0)
+        eliminate(m, A, L, r, i, i - 1, i - 2, i - 1, i - 2, i - 2, 1)
     for e in range(both, first):
-        eliminate(m, A, L, e, e + 1, e + 2, e, e, e + 1, 0)
+        eliminate(m, A, L, r, e, e + 1, e + 2, e, e, e + 1, 0)
     for e in range(both, right):
         i = n - 1 - e
-        eliminate(m, A, L, i, i - 1, i - 2, i - 1, i - 2, i - 2, 1)
-
-
-@kernel
-def forward(m, L, r, i, j, k):
-    """Carry the right-hand side r of node i to its neighbours j and k."""
-    x, y = r[i], r[m + i]
-    r[j] -= L[3 * m + i] * x + L[5 * m + i] * y
-    r[m + j] -= L[4 * m + i] * x + L[6 * m + i] * y
-    r[k] -= L[7 * m + i] * x + L[9 * m + i] * y
-    r[m + k] -= L[8 * m + i] * x + L[10 * m + i] * y
+        eliminate(m, A, L, r, i, i - 1, i - 2, i - 1, i - 2, i - 2, 1)
 
 
 @kernel

@@ -14,24 +14,34 @@ import types
 from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numba
 
-from . import band, contact, dynamics, elastica, ends, jit, ledger, march, newmark, slots, statics, work, zone
+from . import band, contact, dynamics, elastica, ends, hooks, jit, ledger, march, newmark, sensors, slots, statics, work, zone
 from .effects import REGISTRY
 from .effects.base import Effect, Kernel
 
-MODULES = (work, jit, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics)
+MODULES = (work, jit, hooks, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics, sensors)
 ARGUMENTS = {
     "moments": "n, p, w, h0, h1",
     "forces": "n, t, p, q, v, w, f",
     "tangents": "n, t, p, q, v, w, A, ck, cc",
     "ends": "n, t, p, q, v, a",
     "groove": "p, angle",
+    "begin": "n, p, w, h0",
 }
-ENTRIES = {"advance": march.march, "hang": statics.rest, "evaluate": dynamics.forces, "place": ends.place_ends}
+ENTRIES = {
+    "advance": (march.march, "number"),
+    "hang": (statics.rest, "number"),
+    "evaluate": (dynamics.forces, "nothing"),
+    "place": (ends.place_ends, "nothing"),
+    "begin": (hooks.all_begin, "nothing"),
+    "open_ledger": (ledger.open_ledger, "nothing"),
+    "hold": (ledger.hold_forces, "nothing"),
+    "sight": (sensors.sight, "nothing"),
+    "side_maximum": (sensors.side_maximum, "nothing"),
+}
 
 
 def hook_source(hook: str, effects: list[type[Effect]]) -> str:
@@ -55,11 +65,12 @@ def _function(name: str, arguments: str, lines: list[str]) -> str:
     return f"@kernel\ndef all_{name}({arguments}):\n{body}\n"
 
 
-def entry_source(name: str, function: Kernel) -> str:
+def entry_source(name: str, function: Kernel, returns: str) -> str:
     """Source of one function that Python calls: the kernel `function`."""
     names = list(inspect.signature(getattr(function, "py_func", function)).parameters)
     arguments = ", ".join(names)
-    return f"@entry\ndef {name}({arguments}):\n    return {function.__name__}({arguments})\n"
+    call = f"{function.__name__}({arguments})"
+    return f"def call_{name}({arguments}):\n    {call if returns == 'nothing' else f'return {call}'}\n"
 
 
 def cache_folder(sources: Iterable[str]) -> Path:
@@ -84,14 +95,14 @@ def _user_cache() -> str:
 
 
 @cache
-def compiled(effects: tuple[str, ...] | None = None) -> ModuleType:
-    """The joined functions `advance`, `hang`, `evaluate` and `place` for the effects named, all by default."""
+def compiled(effects: tuple[str, ...] | None = None) -> dict[str, jit.Entry]:
+    """The joined functions (`jit.Entry`, see ENTRIES) for the effects named, all by default."""
     chosen = [REGISTRY[name] for name in (REGISTRY if effects is None else effects)]
     modules = [sys.modules[name] for name in sorted({effect.__module__ for effect in chosen})]
-    hooks = "\n".join(hook_source(hook, chosen) for hook in ARGUMENTS)
-    entries = "\n".join(entry_source(*one) for one in ENTRIES.items())
+    acting = "\n".join(hook_source(hook, chosen) for hook in ARGUMENTS)
+    entries = "\n".join(entry_source(name, *one) for name, one in ENTRIES.items())
     sources = [inspect.getsource(one) for one in (*MODULES, *modules)]
-    folder = cache_folder([hooks, entries, *sources, repr(list(slots.DECLARED))])
+    folder = cache_folder([acting, entries, *sources, repr(list(slots.DECLARED))])
     joined = types.ModuleType(f"comprope_joined_{folder.name}")
     # What is compiled is loaded again by the name of its module, which must not depend on where this package stands.
     sys.modules[joined.__name__] = joined
@@ -99,12 +110,12 @@ def compiled(effects: tuple[str, ...] | None = None) -> ModuleType:
         own = bound(vars(sys.modules[effect.__module__]), joined.__name__)
         joined.__dict__.update({f"{effect.name}_{hook}": own[one.__name__] for hook, one in effect.hooks.items()})
     joined.__dict__["kernel"] = jit.kernel
-    exec(hooks, joined.__dict__)
+    exec(acting, joined.__dict__)
     names = {key: value for module in MODULES for key, value in vars(module).items()}
     names |= {f"all_{hook}": getattr(joined, f"all_{hook}") for hook in ARGUMENTS}
-    joined.__dict__.update(bound(names, joined.__name__), entry=jit.entry)
+    joined.__dict__.update(bound(names, joined.__name__))
     exec(compile(entries, _file(folder / "joined.py", entries), "exec"), joined.__dict__)
-    return joined
+    return {name: jit.Entry(getattr(joined, f"call_{name}"), returns) for name, (_, returns) in ENTRIES.items()}
 
 
 def bound(names: Mapping[str, Any], module: str) -> dict[str, Any]:

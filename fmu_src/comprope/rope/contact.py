@@ -49,12 +49,12 @@ def reach(n, p, q, ox, oy, touch):
 
 @kernel
 def shape(g):
-    """Values of the three quadratic B-splines at quadrature point g of a piece, and its weight.
+    """Values of the three quadratic B-splines at quadrature point g of a piece.
 
-    The points are equally spaced, as suits a load that moves through them.
+    The points are equally spaced and weigh the same, as suits a load that moves through them.
     """
     xi = (g + 0.5) / POINTS - 0.5
-    return 0.5 * (0.5 - xi) * (0.5 - xi), 0.75 - xi * xi, 0.5 * (0.5 + xi) * (0.5 + xi), 1.0 / POINTS
+    return 0.5 * (0.5 - xi) * (0.5 - xi), 0.75 - xi * xi, 0.5 * (0.5 + xi) * (0.5 + xi)
 
 
 @kernel
@@ -88,8 +88,16 @@ def add_contact(n, p, q, v, f, touch, Z, ck, cc, tangent):
     if tangent:
         clear(n, Z, first, last)
     for i in range(first, last + 1):
-        for g in range(POINTS):
-            touch_point(n, p, q, v, f, touch, i, g, ex, ey, gx, gy, Z, ck, cc, tangent)
+        if near(m, p, q, i, q[n] + ex, ey):
+            touch_piece(n, p, q, v, f, touch, i, ex, ey, gx, gy, Z, ck, cc, tangent)
+
+
+@kernel
+def near(m, p, q, i, ox, oy):
+    """Whether piece i may touch: the B-spline lies within the hull of its nodes' middles."""
+    dx, dy = q[i] - ox, q[m + i] - oy
+    limit = p[R] + 0.5 * p[ELEMENT]
+    return dx * dx + dy * dy < limit * limit
 
 
 @kernel
@@ -104,40 +112,54 @@ def clear(n, Z, first, last):
 
 
 @kernel
-def touch_point(n, p, q, v, f, touch, i, g, ex, ey, gx, gy, Z, ck, cc, tangent):
-    """One quadrature point: find its depth and, if it touches, add its forces."""
+def touch_piece(n, p, q, v, f, touch, i, ex, ey, gx, gy, Z, ck, cc, tangent):
+    """Add the contact forces of the piece of node i, summed over its quadrature points.
+
+    dx, dy and vx, vy are position and velocity relative to the groove's centre; gx, gy is how that
+    centre moves with the sheave's angle.
+    """
+    m, radius, spin, length = n + 1, contact_radius(p), v[n + n + 1], p[ELEMENT] / POINTS
+    fx, fy, vx0, vy0 = q[n] + ex, ey, v[n] + spin * gx, spin * gy
+    ax, ay, bx, by, cx, cy, turn = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for g in range(POINTS):
+        na, nb, nc = shape(g)
+        dx, dy = na * q[i - 1] + nb * q[i] + nc * q[i + 1] - fx, na * q[m + i - 1] + nb * q[m + i] + nc * q[m + i + 1] - fy
+        square = dx * dx + dy * dy
+        if square < radius * radius:
+            vx, vy = na * v[i - 1] + nb * v[i] + nc * v[i + 1] - vx0, na * v[m + i - 1] + nb * v[m + i] + nc * v[m + i + 1] - vy0
+            rho = sqrt(square)
+            nx, ny = dx / rho, dy / rho
+            depth, rate, slip = radius - rho, -(nx * vx + ny * vy), nx * vy - ny * vx + spin * rho
+            P, P_depth, P_rate = normal_law(p, depth, rate)
+            grip, grip_slip = friction_law(p, slip)
+            hx, hy = length * P * (nx + grip * ny), length * P * (ny - grip * nx)
+            ax, ay, bx, by, cx, cy = ax + na * hx, ay + na * hy, bx + nb * hx, by + nb * hy, cx + nc * hx, cy + nc * hy
+            turn += hx * (gx + dy) + hy * (gy - dx)
+            touch[ELASTIC] += 0.5 * length * p[K] * depth * depth
+            touch[NORMAL_LOSS] += length * (P - p[K] * depth) * rate
+            touch[FRICTION_LOSS] += length * P * grip * slip
+            if tangent:
+                axx, axy, ayx, ayy = linearise(ck, cc, nx, ny, vx, vy, rho, spin, P, P_depth, P_rate, grip, grip_slip)
+                axx, axy, ayx, ayy = length * axx, length * axy, length * ayx, length * ayy
+                drive = -cc * length * P * grip_slip * rho
+                scatter(n, i, na, nb, nc, Z, axx, axy, ayx, ayy, gx, gy, -drive * ny, drive * nx)
+                turn_rows(n, i, na, nb, nc, Z, axx, axy, ayx, ayy, gx, gy, -drive * ny, drive * nx, gx + dy, gy - dx, ck * hx, ck * hy)
+    add_to_nodes(n, f, touch, i, ax, ay, bx, by, cx, cy, turn)
+
+
+@kernel
+def add_to_nodes(n, f, touch, i, ax, ay, bx, by, cx, cy, turn):
+    """Add a piece's forces on its three nodes, and their reaction on the sheave: eq. (2)."""
     m = n + 1
-    na, nb, nc, share = shape(g)
-    dx = na * q[i - 1] + nb * q[i] + nc * q[i + 1] - q[n] - ex
-    dy = na * q[m + i - 1] + nb * q[m + i] + nc * q[m + i + 1] - ey
-    radius = contact_radius(p)
-    if dx * dx + dy * dy >= radius * radius:
-        return
-    spin = v[m + n]
-    vx = na * v[i - 1] + nb * v[i] + nc * v[i + 1] - v[n] - spin * gx
-    vy = na * v[m + i - 1] + nb * v[m + i] + nc * v[m + i + 1] - spin * gy
-    rho = sqrt(dx * dx + dy * dy)
-    nx, ny = dx / rho, dy / rho
-    depth, rate, slip = radius - rho, -(nx * vx + ny * vy), nx * vy - ny * vx + spin * rho
-    P, P_depth, P_rate = normal_law(p, depth, rate)
-    grip, grip_slip = friction_law(p, slip)
-    length = share * p[ELEMENT]
-    hx, hy = length * P * (nx + grip * ny), length * P * (ny - grip * nx)
-    for k, weight in ((i - 1, na), (i, nb), (i + 1, nc)):
-        f[k] += weight * hx
-        f[m + k] += weight * hy
-    f[n] -= hx
-    f[m + n] -= hx * (gx + dy) + hy * (gy - dx)
-    touch[FORCE_X] -= hx
-    touch[ELASTIC] += 0.5 * length * p[K] * depth * depth
-    touch[NORMAL_LOSS] += length * (P - p[K] * depth) * rate
-    touch[FRICTION_LOSS] += length * P * grip * slip
-    if tangent:
-        axx, axy, ayx, ayy = linearise(ck, cc, nx, ny, vx, vy, rho, spin, P, P_depth, P_rate, grip, grip_slip)
-        drive = -cc * length * P * grip_slip * rho
-        scatter(n, i, na, nb, nc, Z, length * axx, length * axy, length * ayx, length * ayy, gx, gy, -drive * ny, drive * nx)
-        turn_rows(n, i, na, nb, nc, Z, length * axx, length * axy, length * ayx, length * ayy,
-                  gx, gy, -drive * ny, drive * nx, gx + dy, gy - dx, ck * hx, ck * hy)  # fmt: skip
+    f[i - 1] += ax
+    f[m + i - 1] += ay
+    f[i] += bx
+    f[m + i] += by
+    f[i + 1] += cx
+    f[m + i + 1] += cy
+    f[n] -= ax + bx + cx
+    f[m + n] -= turn
+    touch[FORCE_X] -= ax + bx + cx
 
 
 @kernel

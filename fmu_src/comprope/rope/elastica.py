@@ -6,6 +6,8 @@ where M = EI kappa + c_B dkappa/dt and kappa is the angle between neighbouring s
 Node i then feels the difference of F = T t + Q n over its two segments (T and B of the paper, with
 their damping), gravity, and an external damping proportional to velocity (D).
 
+Each loop writes one quantity, so that the compiler can use the processor's vector units.
+
 Read as point values r of a curve r + l^2/24 r'', tension and bending of the polygon agree with the
 continuous rope up to fourth order; the contact is placed to match (see `contact`).
 """
@@ -49,12 +51,12 @@ def bend(n, p, w):
     """Curvature and moment at each inner node; M = EI kappa + c_B dkappa/dt. The pinned ends carry none."""
     m, per_l = n + 1, 1.0 / p[ELEMENT]
     for i in range(1, n - 1):
-        sine = w[TX * m + i - 1] * w[TY * m + i] - w[TY * m + i - 1] * w[TX * m + i]
-        kappa = angle(sine) * per_l
-        rate = (w[SPIN * m + i] - w[SPIN * m + i - 1]) * per_l
-        w[CURVATURE * m + i] = kappa
-        w[BEND_RATE * m + i] = rate
-        w[MOMENT * m + i] = p[EI] * kappa + p[CB] * rate
+        w[CURVATURE * m + i] = angle(w[TX * m + i - 1] * w[TY * m + i] - w[TY * m + i - 1] * w[TX * m + i]) * per_l
+    for i in range(1, n - 1):
+        w[BEND_RATE * m + i] = (w[SPIN * m + i] - w[SPIN * m + i - 1]) * per_l
+    for i in range(1, n - 1):
+        w[MOMENT * m + i] = p[EI] * w[CURVATURE * m + i] + p[CB] * w[BEND_RATE * m + i]
+    for i in range(1, n - 1):
         w[STIFF * m + i] = 0.0
 
 
@@ -64,15 +66,16 @@ def sum_forces(n, p, v, w, f):
     m = n + 1
     weight, drag = p[RHO] * p[ELEMENT] * p[G], p[CE] * p[ELEMENT]
     for e in range(n - 1):
-        T, tx, ty = w[TENSION * m + e], w[TX * m + e], w[TY * m + e]
-        Q = (w[MOMENT * m + e] - w[MOMENT * m + e + 1]) * w[INVERSE * m + e]
-        w[SHEAR * m + e] = Q
-        w[FX * m + e] = T * tx - Q * ty
-        w[FY * m + e] = T * ty + Q * tx
+        w[SHEAR * m + e] = (w[MOMENT * m + e] - w[MOMENT * m + e + 1]) * w[INVERSE * m + e]
+    for e in range(n - 1):
+        w[FX * m + e] = w[TENSION * m + e] * w[TX * m + e] - w[SHEAR * m + e] * w[TY * m + e]
+    for e in range(n - 1):
+        w[FY * m + e] = w[TENSION * m + e] * w[TY * m + e] + w[SHEAR * m + e] * w[TX * m + e]
     f[0] = w[FX * m] + 0.5 * weight
     f[m] = w[FY * m]
     for i in range(1, n - 1):
         f[i] = w[FX * m + i] - w[FX * m + i - 1] + weight - drag * v[i]
+    for i in range(1, n - 1):
         f[m + i] = w[FY * m + i] - w[FY * m + i - 1] - drag * v[m + i]
     f[n - 1] = -w[FX * m + n - 2] + 0.5 * weight
     f[m + n - 1] = -w[FY * m + n - 2]
@@ -112,24 +115,44 @@ def assemble(n, p, w, A, mass, cc):
     """
     m = n + 1
     inertia = (mass * p[RHO] + cc * p[CE]) * p[ELEMENT]
+    sum_diagonal(n, m, w, A, DXX, WX, WX, SXX, inertia)
+    sum_diagonal(n, m, w, A, DXY, WX, WY, SXY, 0.0)
+    sum_diagonal(n, m, w, A, DYY, WY, WY, SYY, inertia)
+    sum_next(n, m, w, A, EXX, WX, WX, SXX)
+    sum_next(n, m, w, A, EXY, WX, WY, SXY)
+    sum_next(n, m, w, A, EYX, WY, WX, SXY)
+    sum_next(n, m, w, A, EYY, WY, WY, SYY)
+    sum_after(n, m, w, A, GXX, WX, WX)
+    sum_after(n, m, w, A, GXY, WX, WY)
+    sum_after(n, m, w, A, GYX, WY, WX)
+    sum_after(n, m, w, A, GYY, WY, WY)
+
+
+@kernel
+def sum_diagonal(n, m, w, A, to, u, v, S, inertia):
+    """One entry of the blocks of nodes with themselves: u and v are the sections of its row's and column's w."""
+    k, u, v, S, to = BENDING * m, u * m, v * m, S * m, to * m
     for i in range(1, n - 1):
-        ax, ay, bx, by = w[WX * m + i - 1], w[WY * m + i - 1], w[WX * m + i], w[WY * m + i]
-        k0, k1, k2 = w[BENDING * m + i - 1], w[BENDING * m + i], w[BENDING * m + i + 1]
-        sx, sy = ax + bx, ay + by
-        A[DXX * m + i] = inertia + w[SXX * m + i - 1] + w[SXX * m + i] + k0 * ax * ax + k1 * sx * sx + k2 * bx * bx
-        A[DXY * m + i] = w[SXY * m + i - 1] + w[SXY * m + i] + k0 * ax * ay + k1 * sx * sy + k2 * bx * by
-        A[DYY * m + i] = inertia + w[SYY * m + i - 1] + w[SYY * m + i] + k0 * ay * ay + k1 * sy * sy + k2 * by * by
-        if i < n - 2:
-            cx, cy = w[WX * m + i + 1], w[WY * m + i + 1]
-            ux, uy = bx + cx, by + cy
-            A[EXX * m + i] = -w[SXX * m + i] - k1 * sx * bx - k2 * bx * ux
-            A[EXY * m + i] = -w[SXY * m + i] - k1 * sx * by - k2 * bx * uy
-            A[EYX * m + i] = -w[SXY * m + i] - k1 * sy * bx - k2 * by * ux
-            A[EYY * m + i] = -w[SYY * m + i] - k1 * sy * by - k2 * by * uy
-            A[GXX * m + i] = k2 * bx * cx
-            A[GXY * m + i] = k2 * bx * cy
-            A[GYX * m + i] = k2 * by * cx
-            A[GYY * m + i] = k2 * by * cy
+        before, after = w[k + i - 1] * w[u + i - 1] * w[v + i - 1], w[k + i + 1] * w[u + i] * w[v + i]
+        own = w[k + i] * (w[u + i - 1] + w[u + i]) * (w[v + i - 1] + w[v + i])
+        A[to + i] = inertia + w[S + i - 1] + w[S + i] + before + own + after
+
+
+@kernel
+def sum_next(n, m, w, A, to, u, v, S):
+    """One entry of the blocks of nodes with the next."""
+    k, u, v, S, to = BENDING * m, u * m, v * m, S * m, to * m
+    for i in range(1, n - 2):
+        own = w[k + i] * (w[u + i - 1] + w[u + i]) * w[v + i]
+        A[to + i] = -w[S + i] - own - w[k + i + 1] * w[u + i] * (w[v + i] + w[v + i + 1])
+
+
+@kernel
+def sum_after(n, m, w, A, to, u, v):
+    """One entry of the blocks of nodes with the one after the next."""
+    k, u, v, to = BENDING * m, u * m, v * m, to * m
+    for i in range(1, n - 2):
+        A[to + i] = w[k + i + 1] * w[u + i] * w[v + i + 1]
 
 
 @kernel

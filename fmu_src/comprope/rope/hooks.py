@@ -27,6 +27,11 @@ def all_ends(n, t, p, q, v, a):
 
 
 @kernel
+def all_begin(n, p, w, h0):
+    """Set the history h0 of a rope at rest."""
+
+
+@kernel
 def all_groove(p, angle):
     """Offset (x, y) of the groove's centre from the axle, and its derivative by angle."""
     return 0.0, 0.0, 0.0, 0.0

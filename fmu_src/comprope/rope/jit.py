@@ -5,11 +5,16 @@ Array arguments are only indexed and nothing is allocated inside; `COMPROPE_PURE
 the kernels without a compiler, for coverage and for debugging.
 """
 
+import ctypes
+import inspect
 import os
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numba
+import numpy as np
+from numpy.typing import NDArray
 
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "boundscheck": False, "nogil": True}
 PURE = os.environ.get("COMPROPE_PURE_PYTHON") == "1"
@@ -22,8 +27,55 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     return numba.njit(function, **OPTIONS)  # type: ignore[no-any-return]
 
 
-def entry(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile a function that Python calls, and keep the result on disk beside its source."""
-    if PURE:
-        return function
-    return numba.njit(function, cache=True, **OPTIONS)  # type: ignore[no-any-return]
+INTEGERS = {"n", "m", "steps", "state_size", "effects", "side"}
+FLAGS = {"tangent"}
+NUMBERS = {"t", "t0", "dt", "s", "ck", "cc", "x", "element"}
+
+
+def kind(name: str) -> str:
+    """What an argument of a kernel is, by its name: "integer", "flag", "number" or "array"."""
+    return "integer" if name in INTEGERS else "flag" if name in FLAGS else "number" if name in NUMBERS else "array"
+
+
+class Entry:
+    """A kernel that Python calls: compiled for pointers, kept on disk beside its source, called through C.
+
+    Pointers spare the checks for negative indices, which keep the compiler from using vector units.
+    """
+
+    _TYPES = {"integer": numba.int64, "flag": numba.boolean, "number": numba.float64, "array": numba.types.CPointer(numba.float64)}
+
+    def __init__(self, function: Callable[..., Any], returns: str = "nothing") -> None:
+        self.function = function
+        self.names = tuple(inspect.signature(function).parameters)
+        result = numba.void if returns == "nothing" else self._TYPES[returns]
+        self.signature = result(*(self._TYPES[kind(name)] for name in self.names))
+
+    @cached_property
+    def compiled(self) -> Callable[..., Any]:
+        """The function to call: compiled, or as it is where there is no compiler."""
+        if PURE:
+            return self.function
+        options = {key: value for key, value in OPTIONS.items() if key != "nogil"}
+        return numba.cfunc(self.signature, cache=True, **options)(self.function).ctypes  # type: ignore[no-any-return]
+
+    def bind(self, **arrays: NDArray[np.float64]) -> Callable[..., Any]:
+        """The function with its arrays filled in; what is left to give, by name, are the scalars.
+
+        The arrays must be contiguous and outlive the function.
+        """
+        filled = {name: array if PURE else ctypes.cast(array.ctypes.data, self._POINTER) for name, array in arrays.items()}
+        template = [filled.get(name) for name in self.names]
+        places = {name: k for k, name in enumerate(self.names) if name not in arrays}
+        call = self.compiled
+
+        def bound(**scalars: float) -> Any:
+            arguments = template.copy()
+            for name, value in scalars.items():
+                arguments[places[name]] = value
+            return call(*arguments)
+
+        bound.keep = arrays  # type: ignore[attr-defined]
+        return bound
+
+    _POINTER = ctypes.POINTER(ctypes.c_double)

@@ -70,6 +70,15 @@ def hold_forces(n, p, a, f, P):
 
 
 @kernel
+def open_ledger(n, p, q, v, a, f, w, touch, power, effects, P, E, start):
+    """Set stored energies and powers at the start; start[0] becomes the sum of what is stored."""
+    store(n, p, q, v, w, touch, E)
+    losses(n, p, v, w, touch, power, effects, P)
+    hold_forces(n, p, a, f, P)
+    start[0] = E[KINETIC] + E[GRAVITY] + E[STRAIN] + E[BENT] + E[CONTACT_ENERGY] + E[SHEAVE]
+
+
+@kernel
 def tally(n, p, h, q0, q, v, a, f, w, touch, power, effects, P0, P, E):
     """Bring the ledger E up to date after an accepted step of length h; P0 takes over P."""
     m = n + 1

@@ -8,17 +8,17 @@ import numpy as np
 
 from ..declare import quantities
 from ..errors import InputError, SimulationError
-from . import band, ledger, work, zone
-from .compose import compiled
+from . import ledger, work
+from .bound import Bound
 from .effects.base import REGISTRY
 from .ends import PATH, PATHS
-from .newmark import HALVED, NEWTON, STEPS, WORST
+from .newmark import DEEPEST, HALVED, NEWTON, STEPS, WORST
 from .parameters import Base
-from .sensors import side_maximum, sight
-from .slots import COMPONENTS, MU, vector
-from .state import Array, State, empty
+from .slots import COMPONENTS, vector
+from .state import Array, State
 
 SIDES = {"car": -1, "counterweight": 1}
+FEWEST = 16  # elements
 
 
 def values_of(model: Base) -> dict[str, float]:
@@ -38,18 +38,15 @@ class CompensationRope:
 
     def __init__(self, model: Base) -> None:
         self.model = model
-        self.n = max(round(model.rope_length / model.rope.element_length), 16) + 1
+        self.n = max(round(model.rope_length / model.rope.element_length), FEWEST) + 1
         self.element = model.rope_length / (self.n - 1)
         self.p = np.array(vector(values_of(model) | {"derived.element": self.element}))
-        self.names = tuple(REGISTRY)
-        self.kernels = compiled()
-        self.states = sum(one.states for one in REGISTRY.values())
-        self.state = empty(self.n, self.states, len(self.names))
-        self._trial = empty(self.n, self.states, len(self.names))
-        m = self.n + 1
-        sizes = (work.SECTIONS * m, work.BAND * m, band.FACTOR * m, (zone.ROW + 2) * 2 * m + 4, work.CONTACT * m + 4, 2 * m, work.TOUCH)
-        self._w, self._A, self._L, self._B, self._Z, self._r, self._touch = (np.zeros(size) for size in sizes)
-        self._power = np.zeros(len(self.names) + 1)
+        self._do = Bound(self.n, self.p)
+
+    @property
+    def state(self) -> State:
+        """The present state; overwrite it by `State.from_bytes`."""
+        return self._do.state
 
     # -- at rest ---------------------------------------------------------------------------------
 
@@ -60,39 +57,22 @@ class CompensationRope:
         reach, SimulationError when no shape at rest is found.
         """
         self.check_reach(car, counterweight, time)
-        s = empty(self.n, self.states, len(self.names))
-        s.time[0] = time
+        s = self._do.renew(time)
         s.q[:] = self._guess(car, counterweight)
-        path = still(car, counterweight, outward, self.model.sheave.radius)
-        self.kernels.place(self.n, time, self.p, path, 1.0, 0.0, s.q, s.v, s.a)
+        self._do.path[:] = still(car, counterweight, outward, self.model.sheave.radius)
+        self._do.place(t=time, dt=1.0, s=0.0)
         s.v[:] = 0.0
         s.a[:] = 0.0
-        if self._rest(s) < 0:
+        if self._do.hang(element=self.element) < 0.0:
             raise SimulationError(
                 f"no shape at rest was found with car end at {car:g} m, counterweight end at {counterweight:g} m "
                 f"and sheave.mass = {self.model.sheave.mass:g} kg"
             )
-        self.state = s
-        self._start_ledger()
-
-    def _rest(self, s: State) -> int:
-        smooth = self.p.copy()
-        smooth[MU] = 0.0
-        return int(
-            self.kernels.hang(
-                self.n, smooth, s.q, s.v, self._w, s.f, self._touch, s.history, self._trial.history, self._power,
-                self._A, self._L, self._B, self._Z, self._r, self.element,
-            )
-        )  # fmt: skip
-
-    def _start_ledger(self) -> None:
-        s = self.state
         self._evaluate()
-        s.history[:] = self._trial.history
-        ledger.store(self.n, self.p, s.q, s.v, self._w, self._touch, s.energy)
-        ledger.losses(self.n, self.p, s.v, self._w, self._touch, self._power, len(self.names), s.powers)
-        ledger.hold_forces(self.n, self.p, s.a, s.f, s.powers)
-        s.start[0] = s.energy[: len(ledger.STORED)].sum()
+        self._do.begin()
+        self._evaluate()
+        s.f[:] = self._do.f
+        self._do.open_ledger()
 
     def check_reach(self, car: float, counterweight: float, time: float) -> None:
         """Refuse ends [m] between which the rope cannot hang; raises InputError."""
@@ -125,35 +105,25 @@ class CompensationRope:
         Raises SimulationError where a time step could not be saved by halving it; the rope then stands
         at the last accepted one.
         """
-        s, t = self.state, self._trial
-        time = float(s.time[0])
+        time = float(self.state.time[0])
         steps = max(1, ceil(dt / self.model.solver.step * (1.0 - 1e-9)))
-        reached = self.kernels.advance(
-            self.n, time, dt, steps, self.p, path, s.q, s.v, s.a, s.f, s.history, t.q, t.v, t.a, t.f, t.history,
-            self._w, self._A, self._L, self._B, self._Z, self._r, self._touch, self._power, s.powers, t.powers,
-            s.energy, s.count, self.states * (self.n + 1), len(self.names),
-        )  # fmt: skip
+        self._do.path[:] = path
+        reached = self._do.advance(t0=time, dt=dt, steps=steps)
         if reached < 1.0:
-            raise SimulationError(self._where(time + reached * dt))
-        s.time[0] = time + dt
+            raise SimulationError(self._where(time + reached * dt, dt / steps))
+        self.state.time[0] = time + dt
 
-    def _where(self, time: float) -> str:
-        m, worst = self.n + 1, int(self.state.count[WORST])
-        node = worst % m
-        place = "the sheave" if node == self.n else f"{node * self.element:.2f} m along the rope from the car"
-        height = -self.state.q[min(node, self.n)]
+    def _where(self, time: float, step: float) -> str:
+        worst = int(self.state.count[WORST]) % (self.n + 1)
+        place = "the sheave" if worst == self.n else f"{worst * self.element:.2f} m along the rope from the car"
         return (
-            f"the time step at t = {time:.6f} s did not converge even when halved to "
-            f"{self.model.solver.step / 4096:.1e} s; worst at {place}, height {height:.3f} m"
+            f"the time step at t = {time:.6f} s did not converge even when halved to {step / 2**DEEPEST:.1e} s; "
+            f"worst at {place}, height {-self.state.q[worst]:.3f} m"
         )
 
     def _evaluate(self) -> None:
         """Forces and workspace at the present state."""
-        s = self.state
-        self.kernels.evaluate(
-            self.n, float(s.time[0]), self.p, s.q, s.v, self._w, self._trial.f, self._touch, s.history,
-            self._trial.history, self._power, self._Z, 0.0, 0.0, False,
-        )  # fmt: skip
+        self._do.evaluate(t=float(self.state.time[0]), ck=0.0, cc=0.0, tangent=False)
 
     # -- what it shows ---------------------------------------------------------------------------
 
@@ -163,34 +133,34 @@ class CompensationRope:
         Where the rope's end, or its lowest point, has passed the height, the value is that of the end
         or of the lowest point.
         """
-        s = SIDES[side]
-        y, seen = sight(self.n, self.state.q, s, -height, self.element)
-        return s * y - self.model.sheave.radius, bool(seen)
+        self._do.sight(side=SIDES[side], x=-height)
+        y, seen = self._do.seen
+        return SIDES[side] * float(y) - self.model.sheave.radius, bool(seen)
 
     def maximum(self, side: str) -> tuple[float, float]:
         """Largest outward displacement [m] on a side above the axle, and its height [m]."""
-        s = SIDES[side]
-        y, x = side_maximum(self.n, self.state.q, s)
-        return y - self.model.sheave.radius, -x
+        self._do.side_maximum(side=SIDES[side])
+        y, x = self._do.seen
+        return float(y) - self.model.sheave.radius, -float(x)
 
     def outputs(self) -> Mapping[str, float]:
         """Forces and motions of sheave and ends, in SI units, up positive."""
         self._evaluate()
-        n, q, v, powers = self.n, self.state.q, self.state.v, np.zeros(4)
-        ledger.hold_forces(n, self.p, self.state.a, self._trial.f, powers)
+        self._do.hold()
+        n, q, v = self.n, self.state.q, self.state.v
         return {
-            "sheave_force": -float(self._touch[work.FORCE_X]),
-            "sheave_displacement": self.model.shaft.pit - q[n],
-            "sheave_velocity": -v[n],
-            "sheave_angle": q[2 * n + 1],
-            "sheave_angular_velocity": v[2 * n + 1],
-            "car_end_tension": -powers[0],
-            "counterweight_end_tension": -powers[2],
+            "sheave_force": -float(self._do.touch[work.FORCE_X]),
+            "sheave_displacement": self.model.shaft.pit - float(q[n]),
+            "sheave_velocity": -float(v[n]),
+            "sheave_angle": float(q[2 * n + 1]),
+            "sheave_angular_velocity": float(v[2 * n + 1]),
+            "car_end_tension": -float(self._do.P[0]),
+            "counterweight_end_tension": -float(self._do.P[2]),
         }
 
     def energies(self) -> dict[str, float]:
         """The ledger [J]: stored energies, works and losses by name."""
-        names = [*ledger.STORED, "ends", *ledger.SPENT, *(f"effects.{name}" for name in self.names)]
+        names = [*ledger.STORED, "ends", *ledger.SPENT, *(f"effects.{name}" for name in REGISTRY)]
         return dict(zip(names, self.state.energy.tolist(), strict=True))
 
     @property

@@ -110,7 +110,10 @@ def _assign(table: dict[str, Any], path: list[str | int], value: Any) -> None:
     """Put a value at a path, making tables on the way; `LookupError` where the path leads nowhere."""
     place: Any = table
     for part in path[:-1]:
-        place = place.setdefault(part, {}) if isinstance(place, dict) else place[part] if isinstance(place, list) else None
+        if isinstance(place, list) and isinstance(part, int):
+            place = place[part]
+        elif isinstance(place, dict):
+            place = place.setdefault(part, {})
     if not isinstance(place, dict):
         raise LookupError(path)
     place[path[-1]] = value

@@ -71,24 +71,16 @@ def correct(n, p, h, r, q, v, a, count):
 
 
 @kernel
-def renew(n, t, p, h, q, v, w, A, L, B, Z, touch):
-    """Assemble and factor the tangent of the last evaluation of the forces."""
+def renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch):
+    """Assemble and factor the tangent of the last evaluation of the forces; r is carried to the zone."""
     alpha = p[ALPHA]
     ck = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h
     cc = (1.0 - alpha) * (0.5 + alpha) * h
     first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
     tangent_band(n, t, p, q, v, w, A, 1.0, ck, cc)
-    factor(n, A, L, first, last)
+    factor(n, A, L, r, first, last)
     fill(n, A, Z, B, first, last)
     factor_zone(2 * (last - first + 1), B)
-
-
-@kernel
-def solve(n, L, B, r, first, last):
-    """Solve the factored tangent for r, in place."""
-    inwards(n, L, r, first, last)
-    solve_zone(n, B, r, first, last)
-    outwards(n, L, r, first, last)
 
 
 @kernel
@@ -108,10 +100,13 @@ def attempt(
         forces(n, t, p, q, v, w, f, touch, h0, h1, power, Z, ck, cc, fresh)
         residual(n, p, a, f, f0, r)
         if fresh:
-            renew(n, t, p, h, q, v, w, A, L, B, Z, touch)
+            renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch)
             first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
             count[FACTORED] += 1
-        solve(n, L, B, r, first, last)
+        else:
+            inwards(n, L, r, first, last)
+        solve_zone(n, B, r, first, last)
+        outwards(n, L, r, first, last)
         change = correct(n, p, h, r, q, v, a, count)
         count[NEWTON] += 1
         if not isfinite(change):

@@ -25,32 +25,36 @@ def crossing(values, i, level):
 
 
 @kernel
-def sight(n, q, side, x, element):
-    """Lateral position y [m] of the rope at depth x on a side (-1 car, 1 counterweight), and whether it is there.
+def sight(n, q, side, x, seen):
+    """Lateral position of the rope at depth x on a side (-1 car, 1 counterweight); sets seen = (y [m], 1 if it is there).
 
     Seen from the rope's end on that side, the first crossing counts. Outside the rope's reach the
     position of the end, or of the lowest node, is given.
     """
     m, end = n + 1, 0 if side < 0 else n - 1
+    seen[0], seen[1] = q[m + end], 0.0
     if x < q[end]:
-        return q[m + end], False
+        return
     i = end
     while 0 <= i - side < n and q[i - side] < x:
         i -= side
         if q[i - side] < q[i] and q[i] < x:
-            return q[m + i], False
+            seen[0] = q[m + i]
+            return
     low = i - 1 if side > 0 else i
+    seen[1] = 1.0
     if low < 1 or low > n - 3:
         s = (x - q[low]) / (q[low + 1] - q[low])
-        return q[m + low] + s * (q[m + low + 1] - q[m + low]), True
-    return smooth(q, m, low, crossing(q, low, x)), True
+        seen[0] = q[m + low] + s * (q[m + low + 1] - q[m + low])
+    else:
+        seen[0] = smooth(q, m, low, crossing(q, low, x))
 
 
 @kernel
-def side_maximum(n, q, side):
-    """Largest outward position [m] on a side above the sheave's axle, and its depth x."""
+def side_maximum(n, q, side, seen):
+    """Largest outward position on a side above the sheave's axle; sets seen = (that [m], its depth x [m])."""
     m, best, depth = n + 1, -1e300, 0.0
     for i in range(n):
         if q[i] <= q[n] and side * q[m + i] > best:
             best, depth = side * q[m + i], q[i]
-    return best, depth
+    seen[0], seen[1] = best, depth

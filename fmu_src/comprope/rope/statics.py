@@ -7,7 +7,7 @@ sheave. The sheave's angle stays where it is: without friction nothing turns it.
 
 from math import isfinite
 
-from .band import factor, inwards, outwards
+from .band import factor, outwards
 from .dynamics import forces, tangent_band
 from .jit import kernel
 from .work import COLUMNS, CONTACT, DYY, FIRST, LAST, ROWS
@@ -28,10 +28,9 @@ def rest(n, p, q, v, w, f, touch, h0, h1, power, A, L, B, Z, r, element):
         tangent_band(n, 0.0, p, q, v, w, A, mass, 1.0, 0.0)
         balance(n, f, r)
         lock_angle(n, A, Z)
-        factor(n, A, L, first, last)
+        factor(n, A, L, r, first, last)
         fill(n, A, Z, B, first, last)
         factor_zone(2 * (last - first + 1), B)
-        inwards(n, L, r, first, last)
         solve_zone(n, B, r, first, last)
         outwards(n, L, r, first, last)
         largest = 0.0
@@ -39,15 +38,15 @@ def rest(n, p, q, v, w, f, touch, h0, h1, power, A, L, B, Z, r, element):
             if not abs(r[i]) <= largest:
                 largest = abs(r[i])
         if not isfinite(largest):
-            return -1
+            return -1.0
         scale = min(1.0, LARGEST * element / largest) if largest > 0.0 else 1.0
         for i in range(2 * m):
             q[i] += scale * r[i]
         q[m + n] = angle
         if largest < ENOUGH:
-            return trial + 1
+            return trial + 1.0
         mass = relax(mass, largest, element)
-    return -1
+    return -1.0
 
 
 @kernel

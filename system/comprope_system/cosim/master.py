@@ -12,9 +12,8 @@ gives rope its ends, rope gives drive its tensions at rest, and drive sees them.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
 from typing import Any, Literal, Protocol
-
-from comprope.errors import InputError
 
 Values = Mapping[str, Any]
 Known = dict[str, dict[str, Any]]
@@ -77,7 +76,7 @@ def co_simulate(
     `duration` and communication step are in s; the last step ends at or after start + duration.
     With "one-way" coupling, backward connections keep the values they had at the start.
     """
-    total = _steps(duration, step)
+    total = ceil(duration / step * (1.0 - 1e-9))
     known = _initialised(participants, connections, start)
     yield Sample(start, dict(known), 0, total)
     order = [one.name for one in participants]
@@ -89,12 +88,6 @@ def co_simulate(
             participant.step(time, step)
             known[participant.name] = participant.outputs()
         yield Sample(start + (count + 1) * step, dict(known), count + 1, total)
-
-
-def _steps(duration: float, step: float) -> int:
-    if not 0.0 < step <= duration:
-        raise InputError(f"communication step = {step:g} s: more than 0 and at most the duration, {duration:g} s, is accepted")
-    return int(-(-duration * (1.0 - 1e-9) // step))
 
 
 def _initialised(participants: Sequence[Participant], connections: Sequence[Connection], start: float) -> Known:

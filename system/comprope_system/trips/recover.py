@@ -13,7 +13,7 @@ from comprope.errors import InputError
 
 from .profile import Fit, Guess, fit_profile, inliers
 from .spline import Smoothed, smooth
-from .trip import Curve, Piece, Trip
+from .trip import Piece, Trip, constant
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ def recover_trip(time: ArrayLike, position: ArrayLike) -> Trip:
     noise = _noise(t, x)
     guess, arrives = _guess(t, x, noise)
     if guess is None:
-        return Trip((Piece(_constant(float(np.mean(x))), float(t[0]), float(t[0])),), max(float(np.std(x)), noise), "rest")
+        return Trip((Piece(constant(float(np.mean(x))), float(t[0]), float(t[0])),), max(float(np.std(x)), noise), "rest")
     free = _free(t, x, noise, guess, arrives)
     if not arrives:
         return free[0]
@@ -129,10 +129,3 @@ def _shaped(time: Floats, position: Floats, fit: Fit) -> tuple[Trip, float]:
 def _trip(pieces: tuple[Piece, ...], time: Floats, position: Floats, kind: str) -> Trip:
     bare = Trip(pieces, 0.0, kind)
     return Trip(pieces, float(np.std(position - bare.position(time))), kind)
-
-
-def _constant(value: float) -> Curve:
-    def curve(time: Floats, order: int = 0) -> Floats:
-        return np.full(np.shape(time), 0.0 if order else value)
-
-    return curve

@@ -50,6 +50,12 @@ class Trip:
         """The time from which the car is at rest again [s]."""
         return max((piece.stop for piece in self.pieces), default=np.inf)
 
+    def mirrored(self, height: float) -> "Trip":
+        """The trip of the counterweight in a shaft of this height [m]: height less the car's position."""
+        pieces = tuple(Piece(_negative(one.curve), one.start, one.stop) for one in self.pieces)
+        level = Piece(constant(height), self.rest_before, self.rest_before)
+        return Trip((*pieces, level), self.noise, self.kind)
+
     def position(self, time: ArrayLike) -> NDArray[np.float64]:
         """Height of the car [m] at `time` [s], any shape."""
         t = np.asarray(time, dtype=float)
@@ -66,3 +72,16 @@ class Trip:
     def _derivative(self, time: ArrayLike, order: int) -> NDArray[np.float64]:
         t = np.asarray(time, dtype=float)
         return sum((piece.derivative(t, order) for piece in self.pieces), np.zeros(t.shape))
+
+
+def constant(value: float) -> Curve:
+    """The curve that is `value` everywhere."""
+
+    def curve(time: NDArray[np.float64], order: int = 0) -> NDArray[np.float64]:
+        return np.full(np.shape(time), 0.0 if order else value)
+
+    return curve
+
+
+def _negative(curve: Curve) -> Curve:
+    return lambda time, order=0: -curve(time, order)

@@ -1,6 +1,6 @@
 """What an effect is: quantities declared once, and kernels for the places where it acts.
 
-An effect may act in five ways, each a kernel of fixed arguments (n nodes, m = n + 1 columns per
+An effect may act in these ways, each a kernel of fixed arguments (n nodes, m = n + 1 columns per
 section, see `work`):
 
     moments(n, p, w, h0, h1) -> W       adds to w[MOMENT], and its derivative by curvature to w[STIFF]
@@ -8,6 +8,9 @@ section, see `work`):
     tangents(n, t, p, q, v, w, A, ck, cc)   subtracts ck df/dq + cc df/dv of its forces from A
     ends(n, t, p, q, v, a)              moves the rope's ends sideways
     groove(p, angle) -> x, y, x', y'    offset of the groove's centre from the axle, and by angle
+    begin(n, p, w, h0)                  sets the history h0 of a rope at rest
+
+An effect with history is taken out while the rope settles: it begins in the shape at rest.
 
 W is the power [W] that the effect puts into rope and sheave. With every quantity at its neutral
 value a kernel must change nothing.
@@ -20,7 +23,7 @@ from ...declare import Component
 from .. import slots
 
 Kernel = Callable[..., Any]
-HOOKS = ("moments", "forces", "tangents", "ends", "groove")
+HOOKS = ("moments", "forces", "tangents", "ends", "groove", "begin")
 
 
 class Effect(Component):

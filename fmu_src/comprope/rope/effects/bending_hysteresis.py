@@ -55,4 +55,13 @@ def wire_friction(n, p, w, h0, h1):
     return power
 
 
-acts(BendingHysteresis, moments=wire_friction)
+@kernel
+def unstrained(n, p, w, h0):
+    """Begin without slip in the curvature at rest."""
+    m = n + 1
+    for i in range(1, n - 1):
+        h0[KAPPA0 * m + i] = w[CURVATURE * m + i]
+        h0[SLIP * m + i] = 0.0
+
+
+acts(BendingHysteresis, moments=wire_friction, begin=unstrained)

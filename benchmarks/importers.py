@@ -1,0 +1,153 @@
+"""Run FMUs in independent importers and compare where they end.
+
+    python benchmarks/importers.py dist/*.fmu [--steps 1000] [--step-size 0.001]
+
+Each importer (fmpy, libcosimpy, ecospy; those installed) runs each FMU with its start values in a process of
+its own, and then all FMUs together, unconnected. The table gives the time for all steps and the largest
+difference of a Real output from fmpy's, relative to its nominal value.
+"""
+
+# ruff: noqa: T201 -- a table on the terminal is all it makes
+
+import argparse
+import importlib.util
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from fmpy import extract, read_model_description
+
+Ends = dict[str, float]  # Real outputs at the end, by "FMU.output"
+
+
+def in_fmpy(paths: list[str], steps: int, dt: float) -> tuple[float, Ends]:
+    """Step the FMUs through fmpy, one after the other in each step."""
+    from fmpy.fmi2 import FMU2Slave
+
+    slaves = {}
+    for path in paths:
+        name, folder = read_model_description(path).modelName, extract(path)
+        slave = FMU2Slave(guid="", unzipDirectory=folder, modelIdentifier=name, instanceName=name)
+        slave.instantiate()
+        slave.setupExperiment(startTime=0.0)
+        slave.enterInitializationMode()
+        slave.exitInitializationMode()
+        slaves[path] = slave
+    begin = time.perf_counter()
+    for count in range(steps):
+        for slave in slaves.values():
+            slave.doStep(count * dt, dt)
+    seconds = time.perf_counter() - begin
+    return seconds, _ends(paths, lambda path, ref, name: slaves[path].getReal([ref])[0])
+
+
+def in_libcosimpy(paths: list[str], steps: int, dt: float) -> tuple[float, Ends]:
+    """Step the FMUs through libcosim's fixed-step algorithm."""
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
+
+    log_output_level(CosimLogLevel.ERROR)
+    execution = CosimExecution.from_step_size(round(dt * 1e9))
+    slaves = [CosimLocalSlave(fmu_path=path, instance_name=Path(path).stem) for path in paths]
+    indices = {path: execution.add_local_slave(slave) for path, slave in zip(paths, slaves, strict=True)}
+    observer = CosimObserver.create_last_value()
+    execution.add_observer(observer)
+    begin = time.perf_counter()
+    if not execution.step(step_count=steps):
+        raise RuntimeError(str(execution.status()))
+    seconds = time.perf_counter() - begin
+    return seconds, _ends(paths, lambda path, ref, name: observer.last_real_values(indices[path], [ref])[0])
+
+
+def in_ecospy(paths: list[str], steps: int, dt: float) -> tuple[float, Ends]:
+    """Step the FMUs through Ecos."""
+    from ecospy import EcosSimulation, EcosSimulationStructure
+
+    with EcosSimulationStructure() as structure:
+        for path in paths:
+            structure.add_model(Path(path).stem, path)
+        with EcosSimulation(structure=structure, step_size=dt) as simulation:
+            simulation.init()
+            begin = time.perf_counter()
+            simulation.step(steps)
+            seconds = time.perf_counter() - begin
+            return seconds, _ends(paths, lambda path, ref, name: simulation.get_real(f"{Path(path).stem}::{name}"))
+
+
+IMPORTERS: dict[str, Callable[[list[str], int, float], tuple[float, Ends]]] = {
+    "fmpy": in_fmpy,
+    "libcosimpy": in_libcosimpy,
+    "ecospy": in_ecospy,
+}
+
+
+def compare(paths: list[str], steps: int, dt: float) -> int:
+    """Print a line for each importer and set of FMUs; returns how many failed."""
+    failures = 0
+    print(f"{'FMUs':40} {'importer':12} {'seconds':>9} {'us/step':>9}  largest difference from fmpy")
+    for chosen in [*([path] for path in paths), *([paths] if len(paths) > 1 else [])]:
+        reference: Ends = {}
+        for importer in filter(importlib.util.find_spec, IMPORTERS):
+            label = f"{'+'.join(Path(path).stem for path in chosen):40} {importer:12}"
+            found = _apart(importer, chosen, steps, dt)
+            if isinstance(found, str):
+                failures += 1
+                print(f"{label} FAILED: {found}")
+                continue
+            seconds, ends = found
+            reference = reference or ends
+            print(f"{label} {seconds:9.3f} {1e6 * seconds / steps:9.1f}  {_difference(chosen, reference, ends)}")
+    return failures
+
+
+def _apart(importer: str, paths: list[str], steps: int, dt: float) -> tuple[float, Ends] | str:
+    """What an importer finds in a process of its own, or why it does not."""
+    command = [sys.executable, __file__, "--worker", importer, "--steps", str(steps), "--step-size", repr(dt), *paths]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    if result.returncode or result.stderr.strip():
+        return f"exit status {result.returncode}: {(result.stderr.strip().splitlines() or ['no message'])[-1]}"
+    seconds, ends = json.loads(result.stdout.splitlines()[-1])
+    return seconds, ends
+
+
+def _ends(paths: list[str], read: Callable[[str, int, str], float]) -> Ends:
+    return {
+        f"{Path(path).stem}.{one.name}": read(path, one.valueReference, one.name)
+        for path in paths
+        for one in read_model_description(path).modelVariables
+        if one.causality == "output" and one.type == "Real"
+    }
+
+
+def _difference(paths: list[str], reference: Ends, ends: Ends) -> str:
+    nominals = {
+        f"{Path(path).stem}.{one.name}": float(one.nominal or 1.0)
+        for path in paths
+        for one in read_model_description(path).modelVariables
+    }
+    differences = {name: abs(ends[name] - reference[name]) / nominals[name] for name in reference}
+    worst = max(differences, key=differences.__getitem__)
+    return f"{differences[worst]:.1e} of nominal ({worst})"
+
+
+def main() -> int:
+    """Compare, or, as a worker, run one importer and print what it finds as JSON."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("fmus", nargs="+", metavar="FMU")
+    parser.add_argument("--steps", type=int, default=1000)
+    parser.add_argument("--step-size", type=float, default=0.001, metavar="SECONDS")
+    parser.add_argument("--worker", choices=IMPORTERS, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.worker:
+        print(json.dumps(IMPORTERS[options.worker](options.fmus, options.steps, options.step_size)))
+        return 0
+    return 1 if compare(options.fmus, options.steps, options.step_size) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,68 @@
+"""The compiled kernels with their arrays filled in: one rope's memory, taken once."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from . import band, work, zone
+from .compose import compiled
+from .effects.base import REGISTRY
+from .ends import PATH, PATHS
+from .slots import DECLARED, MU, slot
+from .state import Array, State, empty
+
+Call = Callable[..., Any]
+
+
+class Bound:
+    """Memory and kernels of one rope of n nodes with parameters p.
+
+    `state` is the accepted state; `path`, `f`, `w`, `touch`, `seen` and `P` are what calls read or
+    leave. Each kernel is an attribute, to be called with its scalars by name.
+    """
+
+    def __init__(self, n: int, p: Array) -> None:
+        effects, states = len(REGISTRY), sum(one.states for one in REGISTRY.values())
+        self.state, trial = empty(n, states, effects), empty(n, states, effects)
+        m, s = n + 1, self.state
+        sizes = {"w": work.SECTIONS * m, "A": work.BAND * m, "L": band.FACTOR * m, "B": (zone.ROW + 2) * 2 * m + 4}
+        sizes |= {"Z": work.CONTACT * m + 4, "r": 2 * m, "touch": work.TOUCH, "power": effects + 1, "path": PATHS * PATH, "seen": 2}
+        arrays = {name: np.zeros(size) for name, size in sizes.items()} | {"p": p, "f": trial.f, "h1": trial.history, "P": trial.powers}
+        kept = {"h0": s.history, "P0": s.powers, "E": s.energy, "start": s.start, "count": s.count}
+        before = {"q0": s.q, "v0": s.v, "a0": s.a, "f0": s.f}
+        self.moving = arrays | kept | before | {"q": trial.q, "v": trial.v, "a": trial.a}
+        self.standing = arrays | kept | {"q": s.q, "v": s.v, "a": s.a}
+        self.path, self.f, self.w, self.touch, self.seen, self.P = (arrays[name] for name in ("path", "f", "w", "touch", "seen", "P"))
+        self.scalars = {"n": n, "effects": effects, "state_size": states * m}
+        self.advance = self._bind("advance", self.moving)
+        self.hang = self._bind("hang", self.standing | {"p": without_friction(p)})
+        self.open_ledger = self._bind("open_ledger", self.standing | {"P": s.powers})
+        self.evaluate, self.place, self.begin, self.hold, self.sight, self.side_maximum = (
+            self._bind(name, self.standing) for name in ("evaluate", "place", "begin", "hold", "sight", "side_maximum")
+        )
+
+    def _bind(self, name: str, arrays: dict[str, Array]) -> Call:
+        entry = compiled()[name]
+        own = {key: value for key, value in self.scalars.items() if key in entry.names}
+        call = entry.bind(**{key: array for key, array in arrays.items() if key in entry.names})
+        return lambda **scalars: call(**own, **scalars)
+
+    def renew(self, time: float) -> State:
+        """Empty the state in place, at a time [s]; returns it."""
+        for array in vars(self.state).values():
+            array[:] = 0.0
+        self.state.time[0] = time
+        return self.state
+
+
+def without_friction(p: Array) -> Array:
+    """Parameters of a rope that settles: no friction on the groove, no effect that has a history."""
+    smooth = p.copy()
+    smooth[MU] = 0.0
+    for effect in REGISTRY.values():
+        for name in effect.model_fields if effect.states else ():
+            key = f"effects.{effect.name}.{name}"
+            smooth[slot(key)] = DECLARED[key].neutral
+    return smooth
+

@@ -1,0 +1,64 @@
+"""The command `comprope`: finds its subcommands and turns errors into one line each and an exit status."""
+
+import importlib
+import pkgutil
+import sys
+
+import typer
+
+from comprope.errors import CompropeError, InputError
+
+from . import commands
+
+DONE, FAILED, BAD_INPUT = 0, 1, 2
+
+app = typer.Typer(add_completion=False, rich_markup_mode="markdown", pretty_exceptions_enable=False)
+
+
+@app.callback(invoke_without_command=True)
+def _welcome(context: typer.Context) -> None:
+    """How an elevator's compensation ropes swing: simulate a trip, and compare it with what was measured.
+
+    Begin with `comprope simulate tower50 --plot trip.png`. Wherever a command takes
+    MODEL.toml, the name of a preset does too: tower50, tower50_light, building200.
+    """
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+
+
+def _register() -> None:
+    """Every module of `commands` is a command: the function that has the module's name."""
+    for module in pkgutil.iter_modules(commands.__path__):
+        if not module.name.startswith("_"):
+            function = getattr(importlib.import_module(f"{commands.__name__}.{module.name}"), module.name)
+            app.command(module.name.replace("_", "-"))(function)
+
+
+_register()
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and exit: 0 done, 2 bad input, 1 anything else; errors are lines on standard error."""
+    try:
+        status = app(arguments, prog_name="comprope", standalone_mode=False)
+    except Exception as error:
+        status, text = _explained(error)
+        sys.stderr.write("".join(f"{line}\n" for line in text.splitlines()))
+    sys.exit(status or DONE)
+
+
+def _explained(error: Exception) -> tuple[int, str]:
+    """The exit status and the text for an error."""
+    if isinstance(error, InputError):
+        return BAD_INPUT, str(error)
+    if isinstance(error, CompropeError):
+        return FAILED, str(error)
+    if isinstance(error, typer.Abort):
+        return FAILED, "stopped"
+    if hasattr(error, "format_message"):  # typer's and click's errors in options and arguments
+        return BAD_INPUT, f"{' '.join(error.format_message().split()).rstrip('.')}; see `comprope --help`"
+    return FAILED, f"internal error: {type(error).__name__}: {' '.join(str(error).split())}"
+
+
+if __name__ == "__main__":
+    main()
