@@ -1,6 +1,7 @@
 """The rope of the 50 m test tower, and trips of its ends, as the tests of the rope use them."""
 
 import numpy as np
+
 from comprope.drive.trajectory import Motion, Trip
 from comprope.rope.model import CompensationRope
 from comprope.rope.modelfile import RopeModel, validated, with_changes

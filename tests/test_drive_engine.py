@@ -231,10 +231,10 @@ def test_a_run_may_start_at_any_time() -> None:
 
 
 def test_a_motor_at_its_limit_arrives_later_without_swinging() -> None:
-    found = run(engine(servo__torque_limit=1900.0, plant__car_mass=2300.0, servo__position_bandwidth=2.0), [0.02] * 2000)
+    found = run(engine(servo__torque_limit=1900.0, plant__car_mass=2600.0, servo__position_bandwidth=2.0), [0.02] * 2000)
     torque, position = column(found, "motor_torque"), column(found, "car_position")
     assert np.abs(torque).max() == pytest.approx(1900.0, rel=1e-12)
-    assert position.max() < 50.1
+    assert position.max() < 50.001
     assert position[-1] == pytest.approx(50.0, abs=1e-3)
 
 

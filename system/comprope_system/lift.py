@@ -65,7 +65,7 @@ def driven(model: RopeModel, drive: Drive, direct: bool = False) -> Iterator[Lif
         if direct:
             motion: Participant = DirectParticipant("motion", interface, {})
         else:
-            motion = stack.enter_context(FmuParticipant("motion", fmus.drive_fmu(), parameters(interface)))
+            motion = stack.enter_context(FmuParticipant("motion", fmus.drive_fmu(), start_values(interface)))
         yield Lift((motion, _rope(stack, model, direct)), FORWARD + BACKWARD, True)
 
 
@@ -76,9 +76,9 @@ def prescribed(model: RopeModel, trips: Mapping[str, Trip], direct: bool = False
         yield Lift((PrescribedMotion("motion", trips), _rope(stack, model, direct)), FORWARD, False)
 
 
-def parameters(interface: ModelInterface) -> dict[str, Any]:
-    """Every parameter of a model by name: an FMU's own start values need not be the same."""
-    return {one.name: one.start for one in interface.of_role("parameter")}
+def start_values(interface: ModelInterface) -> dict[str, Any]:
+    """Every parameter and input of a model by name: an FMU's own start values need not be the same."""
+    return {one.name: one.start for role in ("parameter", "input") for one in interface.of_role(role)}
 
 
 def _rope(stack: ExitStack, model: RopeModel, direct: bool) -> Participant:
@@ -86,4 +86,4 @@ def _rope(stack: ExitStack, model: RopeModel, direct: bool) -> Participant:
     if direct:
         return DirectParticipant("rope", interface, ROPE_INPUTS)
     path = fmus.rope_fmu(len(model.sensors))
-    return stack.enter_context(FmuParticipant("rope", path, parameters(interface) | ROPE_INPUTS))
+    return stack.enter_context(FmuParticipant("rope", path, start_values(interface) | ROPE_INPUTS))

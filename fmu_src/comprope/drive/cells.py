@@ -6,6 +6,7 @@ one cell to the next; the cells are narrow where a rope is short and wide in the
 
 from bisect import bisect
 from dataclasses import dataclass
+from functools import lru_cache
 
 import control
 import numpy as np
@@ -44,8 +45,9 @@ class Cells:
         full[:_N] = (expm(square) @ full)[:_N]
 
 
+@lru_cache(maxsize=8)
 def cells(drive: Drive) -> Cells:
-    """The cells of a drive's shaft."""
+    """The cells of a drive's shaft; kept, so that a reset or a second instance need not wait for them."""
     centres = _centres(drive.plant.headroom, drive.shaft.height)
     hoists = [state_space(drive, float(x)) for x in centres]
     sampled = [control.sample_system(hoist, drive.servo.sample_period, method="zoh") for hoist in hoists]

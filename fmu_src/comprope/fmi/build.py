@@ -28,7 +28,7 @@ from .icon import icon
 from .page import page
 
 COMPROPE = Path(__file__).parent.parent
-FACE = ("__init__", "check", "engine", "face", "failure", "run", "runstate")  # what of this package runs inside an FMU
+FACE = ("__init__", "binary", "check", "engine", "face", "failure", "run", "runstate")  # what of this package runs inside an FMU
 FIXED_TIME = (1980, 1, 1, 0, 0, 0)
 DESCRIPTION = "modelDescription.xml"
 
@@ -52,13 +52,13 @@ import sys
 
 try:
     from {package}.bundled import Slave
-    from {package}.fmi.failure import keep_alive
+    from {package}.fmi.binary import keep_alive
 except Exception as error:
     sys.stderr and sys.stderr.write("{name} cannot be loaded: %s. It needs {needs}.\\n" % error)
     raise
 
 if locals() is not globals():
-    # Run by pythonfmu 0.7.0 for one more instance; it then gives up a reference to this module's names that is not its own.
+    # Run by pythonfmu's binary for one more instance.
     keep_alive(globals())
 
 

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, NoReturn, ParamSpec, TypeVar
 from pythonfmu import Boolean, Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real, String
 
 from . import failure
+from .binary import keep_alive, leave_cleanly
 from .engine import ModelInterface, Value, Variable
 from .run import Run
 
@@ -48,8 +49,10 @@ class Face(Fmi2Slave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        if "logger" in kwargs and self.resources in sys.path:  # put there by pythonfmu's binary; all is imported by now
-            sys.path.remove(self.resources)
+        if "logger" in kwargs:  # inside an FMU
+            leave_cleanly(self.resources, type(self).__name__)
+            if self.resources in sys.path:  # put there to load us; all is imported by now
+                sys.path.remove(self.resources)
         self._run = Run(self.interface)
         for one in self.interface.variables:
             self.register_variable(_declared(one), nested=False)
@@ -119,7 +122,7 @@ class Face(Fmi2Slave):
         self._run.restore(state, self._identity())
 
     # These two are called on the class, where there is no instance to keep alive after an
-    # exception (see `failure.keep_alive`); so states are bytes from the outset, checked when set.
+    # exception (see `binary`); so states are bytes from the outset, checked when set.
 
     @staticmethod
     def _fmu_state_to_bytes(state: bytes) -> bytes:
@@ -136,7 +139,7 @@ class Face(Fmi2Slave):
         if self._run.failure is None:
             failure.report(text)
             self._run.failure = what
-        failure.keep_alive(type(self), self, self.log_queue)
+        keep_alive(type(self), self, self.log_queue)
         raise failure.SlaveError(text) from None
 
     def _identity(self) -> str:

@@ -2,16 +2,14 @@
 
 pythonfmu knows two ways to report an error. A step that returns False becomes fmi2Discard, which
 tells importers to try again: fmpy then repeats or leaves out the step without a word. An exception
-becomes fmi2Fatal, with the exception's `repr` in the importer's log; no importer takes that for
-success, and it is the only way for calls other than steps. So every error is raised. (fmi2Error
-would be right, but pythonfmu's binary offers no way to return it.)
+becomes fmi2Fatal, with the exception's `repr` in the importer's log; fmpy and libcosim stop there,
+and it is the only way for calls other than steps. So every error is raised. (fmi2Error would be
+right, but pythonfmu's binary offers no way to return it.)
 """
 
-import ctypes
 import sys
 import traceback
 from pathlib import Path
-from typing import Any
 
 from ..errors import CompropeError
 
@@ -40,14 +38,3 @@ def report(text: str) -> None:
         sys.stderr.flush()
     except (OSError, ValueError, AttributeError):
         return  # a host without a standard error, or with a closed one, has only its log
-
-
-def keep_alive(*owned: Any) -> None:
-    """Add one reference to each object, for good.
-
-    When a method raises, pythonfmu 0.7.0 gives up its references to the slave, its class and its
-    log queue, but goes on using them and gives them up again when the instance is freed; without a
-    reference in their place the host process dies.
-    """
-    for item in owned:
-        ctypes.pythonapi.Py_IncRef(ctypes.py_object(item))

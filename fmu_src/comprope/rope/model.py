@@ -147,15 +147,21 @@ class CompensationRope:
         """Forces and motions of sheave and ends, in SI units, up positive."""
         self._evaluate()
         self._do.hold()
-        n, q, v = self.n, self.state.q, self.state.v
         return {
             "sheave_force": -float(self._do.touch[work.FORCE_X]),
+            **self.sheave(),
+            "car_end_tension": -float(self._do.P[0]),
+            "counterweight_end_tension": -float(self._do.P[2]),
+        }
+
+    def sheave(self) -> dict[str, float]:
+        """Motion of the sheave, in SI units, up positive; the angle is positive while the car goes up."""
+        n, q, v = self.n, self.state.q, self.state.v
+        return {
             "sheave_displacement": self.model.shaft.pit - float(q[n]),
             "sheave_velocity": -float(v[n]),
             "sheave_angle": float(q[2 * n + 1]),
             "sheave_angular_velocity": float(v[2 * n + 1]),
-            "car_end_tension": -float(self._do.P[0]),
-            "counterweight_end_tension": -float(self._do.P[2]),
         }
 
     def energies(self) -> dict[str, float]:

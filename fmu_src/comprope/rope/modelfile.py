@@ -35,7 +35,8 @@ def dump(model: RopeModel, path: str | Path, comment: str = "") -> None:
     table = as_table(model)
     sensors = table.pop("sensors", [])
     blocks = [tomli_w.dumps(table)] + [f"\n[[sensors]]\n{tomli_w.dumps(sensor)}" for sensor in sensors]
-    heading = "".join(f"# {line}".rstrip() + "\n" for line in comment.splitlines())
+    printable = ("".join(letter if letter.isprintable() else " " for letter in line) for line in comment.splitlines())
+    heading = "".join(f"# {line}".rstrip() + "\n" for line in printable)
     with whole_file(path) as temporary:
         temporary.write_text(heading + "".join(blocks), encoding="utf-8", newline="\n")
 
@@ -112,8 +113,10 @@ def _assign(table: dict[str, Any], path: list[str | int], value: Any) -> None:
     for part in path[:-1]:
         if isinstance(place, list) and isinstance(part, int):
             place = place[part]
-        elif isinstance(place, dict):
+        elif isinstance(place, dict) and isinstance(part, str):
             place = place.setdefault(part, {})
+        else:
+            raise LookupError(path)
     if not isinstance(place, dict):
         raise LookupError(path)
     place[path[-1]] = value

@@ -25,9 +25,10 @@ class FmuParticipant:
     be loaded or a step fails.
     """
 
-    def __init__(self, name: str, path: Path, parameters: Mapping[str, Any]) -> None:
+    def __init__(self, name: str, path: Path, start: Mapping[str, Any]) -> None:
+        """`start` holds values of parameters and inputs by name; others keep the FMU's own."""
         self.name = name
-        self._parameters = dict(parameters)
+        self._start = dict(start)
         self._messages: list[str] = []
         self._running = self._failed = False
         self._folder = fmpy.extract(str(path))
@@ -50,7 +51,7 @@ class FmuParticipant:
         """See `Participant`."""
         with self._calls():
             self._instance.setupExperiment(startTime=start)
-        self.set(self._parameters)
+        self.set(self._start)
         with self._calls():
             self._instance.enterInitializationMode()
 
@@ -106,8 +107,7 @@ class FmuParticipant:
             with redirect_stderr(errors):
                 instance.instantiate(callbacks=self._callbacks, loggingOn=True)
         except Exception as error:
-            told = errors.getvalue().strip().splitlines() or self._messages or [str(error)]
-            raise SimulationError(f"{self.name}: the FMU cannot be instantiated: {told[-1]}") from None
+            raise SimulationError(f"{self.name}: the FMU cannot be instantiated: {self._told(errors, error)}") from None
         return instance
 
     @contextmanager
@@ -123,11 +123,13 @@ class FmuParticipant:
                 yield
         except FMICallException as error:
             self._failed = True
-            told = self._messages or errors.getvalue().strip().splitlines() or [str(error)]
-            raise self._error_type()(f"{self.name}: {told[-1]}") from None
+            kind: type[CompropeError] = SimulationError if self._running else InputError
+            raise kind(f"{self.name}: {self._told(errors, error)}") from None
 
-    def _error_type(self) -> type[CompropeError]:
-        return SimulationError if self._running else InputError
+    def _told(self, errors: io.StringIO, error: Exception) -> str:
+        """The last line that the FMU logged, else wrote, else what fmpy says."""
+        lines = [line for text in (str(error), errors.getvalue(), *self._messages) for line in text.splitlines() if line.strip()]
+        return lines[-1].strip()
 
     def _by_kind(self, names: list[str]) -> dict[str, list[str]]:
         groups: dict[str, list[str]] = defaultdict(list)

@@ -1,0 +1,1 @@
+"""From measurements to a better model: campaigns, comparison, diagnosis, and effects added with fitted parameters."""

@@ -1,0 +1,205 @@
+"""Measurement campaigns: a folder with campaign.toml, a model file and one CSV file per run.
+
+Everything is read and checked at once; every problem of all files is reported together.
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from pydantic import Field, ValidationError
+
+from comprope.declare import Component
+from comprope.errors import InputError
+from comprope.explain import problems
+from comprope.rope.effects import RopeModel
+from comprope.rope.modelfile import load, read_toml, with_changes
+
+from ..trips import Trip, recover_trip
+
+Floats = NDArray[np.float64]
+Quantity = Literal[
+    "lateral_displacement", "sheave_displacement", "sheave_angular_velocity", "sheave_force",
+    "car_end_tension", "counterweight_end_tension",
+]  # fmt: skip
+UNITS: dict[str, dict[str, float]] = {
+    "lateral_displacement": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6},
+    "sheave_displacement": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6},
+    "sheave_angular_velocity": {"rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "1/min": np.pi / 30.0},
+    "sheave_force": {"N": 1.0, "kN": 1e3},
+    "car_end_tension": {"N": 1.0, "kN": 1e3},
+    "counterweight_end_tension": {"N": 1.0, "kN": 1e3},
+}
+LEAST_REST = 0.2  # s of rest before a trip that a mean "at rest" needs
+
+
+class Channel(Component):
+    """What one column of the CSV files is."""
+
+    column: str = Field(description="the column's name in the CSV header")
+    quantity: Quantity = Field(description="what is measured")
+    sensor: str | None = Field(None, description="for lateral_displacement: a sensor of the model")
+    unit: str = Field(description="unit of the column and of its noise")
+    reference: Literal["rest", "absolute"] = Field("absolute", description="value less its mean before the trip, or the value")
+    noise: float | None = Field(None, ge=0.0, description="one standard deviation of the noise, in the unit of the column")
+
+    @property
+    def scale(self) -> float:
+        """SI units per unit of the column."""
+        return UNITS[self.quantity][self.unit]
+
+
+class RunSpec(Component):
+    """One run: its file, what it may be used for, and what differs from the model file."""
+
+    file: str = Field(description="the CSV file, relative to campaign.toml")
+    role: Literal["fit", "validate"] = Field("fit", description="validate: never used for fitting or ranking")
+    set: dict[str, float | str] = Field(default_factory=dict, description='changes of the model, e.g. { "sheave.mass" = 120.0 }')
+
+
+class CampaignFile(Component):
+    """campaign.toml."""
+
+    name: str = Field(description="name of the campaign")
+    model: str = Field(description="the model file, relative to campaign.toml")
+    channels: tuple[Channel, ...] = Field(description="the channels, at least one")
+    runs: tuple[RunSpec, ...] = Field(description="the runs, at least one")
+
+
+@dataclass(frozen=True)
+class Run:
+    """One measured run in SI units: `values[column]` (n,) at `time` (n,) [s], NaN where there is none.
+
+    `changes` are what differs from the model file; `trip` and `counterweight` are the smooth motions behind
+    the measured positions; `notes` are remarks about the data that a person should read.
+    """
+
+    file: str
+    role: str
+    changes: dict[str, Any]
+    time: Floats
+    car_position: Floats
+    trip: Trip
+    counterweight: Trip
+    values: dict[str, Floats]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def rest(self) -> NDArray[np.bool_]:
+        """Which samples lie before the trip."""
+        return np.asarray(self.time <= max(self.trip.rest_before, self.time[0] + LEAST_REST))
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """A campaign: its model under test, channels by column, and runs."""
+
+    name: str
+    folder: Path
+    model: RopeModel
+    model_path: Path
+    channels: dict[str, Channel]
+    runs: tuple[Run, ...]
+    notes: tuple[str, ...] = field(default=())
+
+    def of_role(self, role: str) -> tuple[Run, ...]:
+        """The runs of one role."""
+        return tuple(run for run in self.runs if run.role == role)
+
+
+def load_campaign(folder: str | Path) -> Campaign:
+    """Read a campaign; raises `InputError` with every problem of its files, one line each."""
+    path = Path(folder)
+    path = path / "campaign.toml" if path.is_dir() or not path.suffix else path
+    described = _described(path)
+    found: list[str] = []
+    model = _collect(found, lambda: load(path.parent / described.model))
+    found += _channel_problems(path, described, model)
+    runs = [_collect(found, lambda one=one: _run(path, one, described, model)) for one in described.runs]
+    if not any(one.role == "fit" for one in described.runs):
+        found.append(f'{path}: runs: at least one with role = "fit" is needed')
+    if found or model is None:
+        raise InputError("\n".join(found))
+    channels = {one.column: one for one in described.channels}
+    whole = tuple(run for run in runs if run is not None)
+    return Campaign(described.name, path.parent, model, path.parent / described.model, channels, whole)
+
+
+def _collect(found: list[str], make: Any) -> Any:
+    """What `make` makes, or None with its problem noted."""
+    try:
+        return make()
+    except InputError as error:
+        found += str(error).splitlines()
+        return None
+
+
+def _described(path: Path) -> CampaignFile:
+    try:
+        table = {key: tuple(value) if isinstance(value, list) else value for key, value in read_toml(path).items()}
+        return CampaignFile.model_validate(table)
+    except ValidationError as error:
+        raise InputError("\n".join(f"{path}: {line}" for line in problems(error, CampaignFile))) from None
+
+
+def _channel_problems(path: Path, described: CampaignFile, model: RopeModel | None) -> list[str]:
+    found, names = [], [one.column for one in described.channels]
+    found += [f"{path}: channels: column {name} is described twice" for name in sorted({n for n in names if names.count(n) > 1})]
+    sensors = [sensor.name for sensor in model.sensors] if model else []
+    for k, one in enumerate(described.channels, 1):
+        where = f"{path}: channels[{k}]"
+        if one.unit not in UNITS[one.quantity]:
+            found.append(f'{where}.unit = "{one.unit}": for {one.quantity} {", ".join(UNITS[one.quantity])} are accepted')
+        if model and one.quantity == "lateral_displacement" and one.sensor not in sensors:
+            found.append(f'{where}.sensor = "{one.sensor}": a sensor of the model is accepted: {", ".join(sensors) or "it has none"}')
+    return found
+
+
+def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel | None) -> Run:
+    file = path.parent / spec.file
+    found: list[str] = []
+    changed = _collect(found, lambda: with_changes(model, spec.set, f"{path}: {spec.file}")) if model else None
+    table = _collect(found, lambda: _table(file, described))
+    trips = _collect(found, lambda: _trips(file, table, changed or model)) if table is not None and model else None
+    if found or trips is None or table is None:
+        raise InputError("\n".join(found))
+    usable = [one for one in described.channels if one.unit in UNITS[one.quantity]]
+    values = {one.column: table[one.column].to_numpy(float) * one.scale for one in usable}
+    time, car = table["time"].to_numpy(float), table["car_position"].to_numpy(float)
+    return Run(spec.file, spec.role, dict(spec.set), time, car, *trips, values)
+
+
+def _table(file: Path, described: CampaignFile) -> pd.DataFrame:
+    try:
+        table = pd.read_csv(file, skipinitialspace=True)
+    except OSError as error:
+        raise InputError(f"{file}: cannot be read: {error.strerror}") from None
+    except (ValueError, UnicodeDecodeError) as error:
+        raise InputError(f"{file}: not a CSV table: {' '.join(str(error).split())}") from None
+    needed = ["time", "car_position", *(one.column for one in described.channels)]
+    if missing := [name for name in needed if name not in table]:
+        raise InputError(f"{file}: no column {', '.join(missing)}; the header has {', '.join(map(str, table.columns))}")
+    numbers = table.apply(pd.to_numeric, errors="coerce")
+    wrong = [name for name in table.columns if (numbers[name].isna() & table[name].notna()).any()]
+    if wrong:
+        raise InputError("\n".join(_wrong_cell(file, name, table, numbers) for name in wrong))
+    return numbers
+
+
+def _wrong_cell(file: Path, name: str, table: pd.DataFrame, numbers: pd.DataFrame) -> str:
+    row = int((numbers[name].isna() & table[name].notna()).to_numpy().argmax())
+    return f"{file}: {name} = {table[name].iloc[row]!r} in row {row + 2}: a number or an empty cell is accepted"
+
+
+def _trips(file: Path, table: pd.DataFrame, model: RopeModel) -> tuple[Trip, Trip]:
+    try:
+        time = table["time"]
+        car = recover_trip(time, table["car_position"])
+        if "counterweight_position" in table:
+            return car, recover_trip(time, table["counterweight_position"])
+        return car, car.mirrored(model.shaft.height)
+    except InputError as error:
+        raise InputError(f"{file}: {error}") from None

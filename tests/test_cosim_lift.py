@@ -1,0 +1,100 @@
+"""Drive and rope together: as FMUs and directly the same numbers, and errors in the FMU's own words."""
+
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from comprope.errors import InputError, SimulationError
+from comprope.rope.modelfile import load, with_changes
+from comprope_system import presets
+from comprope_system.cosim import fmus
+from comprope_system.cosim.fmu import FmuParticipant
+from comprope_system.lift import driven, load_drive
+from comprope_system.simulation import Timing, simulate
+
+# A coarse rope on a short trip: what is tested is the coupling, not the rope.
+COARSE = {"rope.element_length": 0.2, "solver.step": 0.005, "shaft.height": 12.0}
+TRIP = {"shaft": {"height": 12.0}, "trip": {"start_position": 1.0, "destination": 2.0, "start_time": 0.0}}
+
+
+@pytest.fixture(scope="module")
+def model():
+    return with_changes(load(presets.model_path("tower50")), COARSE)
+
+
+def trip(model, direct=True, step=0.02, duration=2.0, coupling="two-way"):
+    with driven(model, load_drive(None, TRIP), direct) as lift:
+        return simulate(lift, [one.name for one in model.sensors], Timing(duration, step, coupling)).table
+
+
+@pytest.fixture(scope="module")
+def reference(model):
+    return trip(model)
+
+
+def test_fmus_and_models_give_the_same_numbers(model, reference):
+    table = trip(model, direct=False)
+    assert list(table) == list(reference)
+    # One code on one machine; only the compiler's choices in two processes could differ, and they do not.
+    assert table.equals(reference)
+
+
+def test_nothing_is_left_behind(model, monkeypatch, tmp_path):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    drive = load_drive(None, TRIP)
+    with driven(model, drive):
+        assert any(tmp_path.iterdir())
+    assert not any(tmp_path.iterdir())
+    with pytest.raises(RuntimeError), driven(model, drive):
+        raise RuntimeError
+    assert not any(tmp_path.iterdir())
+
+
+def test_halving_the_communication_step_changes_little(model, reference):
+    finer = trip(model, step=0.01).iloc[::2].reset_index(drop=True)
+    # The drive feels each tension one communication step late: some micrometres of a hoist rope's stretch.
+    assert (finer["car_position"] - reference["car_position"]).abs().max() < 5e-5
+    assert (finer["cw_low"] - reference["cw_low"]).abs().max() < 5e-5
+
+
+def test_the_drive_hardly_feels_the_rope_but_does(model, reference):
+    alone = trip(model, coupling="one-way")
+    difference = (alone["car_position"] - reference["car_position"]).abs().max()
+    assert 0.0 < difference < 1e-3
+
+
+def test_a_stale_fmu_in_dist_is_not_used(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "dist").mkdir()
+    (tmp_path / "dist" / "ElevatorDrive.fmu").write_bytes(b"no FMU at all")
+    built = fmus.drive_fmu()
+    assert tmp_path / "cache" in built.parents
+    (tmp_path / "dist" / "ElevatorDrive.fmu").write_bytes(built.read_bytes())
+    assert fmus.drive_fmu() == Path("dist/ElevatorDrive.fmu")
+
+
+def test_what_an_fmu_refuses_is_told_in_its_words():
+    with FmuParticipant("motion", fmus.drive_fmu(), {"profile.speed": 99.0}) as drive, pytest.raises(InputError) as caught:
+        drive.prepare(0.0)
+        drive.begin()
+    assert "profile.speed = 99 m/s: 0.01 to 25 m/s is accepted" in str(caught.value)
+    with FmuParticipant("motion", fmus.drive_fmu(), {"profile.sped": 1.0}) as drive, pytest.raises(InputError, match="sped is not"):
+        drive.prepare(0.0)
+
+
+def test_a_failing_step_is_told_in_the_fmus_words():
+    with FmuParticipant("motion", fmus.drive_fmu(), {}) as drive:
+        drive.prepare(0.0)
+        drive.begin()
+        drive.step(0.0, 0.01)
+        with pytest.raises(SimulationError, match=r"^motion: ElevatorDrive 'motion' at t = 0\.01 s: step from 5\.0 s: [^\n]*$"):
+            drive.step(5.0, 0.01)
+
+
+def test_the_rope_that_cannot_reach_is_refused(model):
+    with pytest.raises((InputError, SimulationError), match="rope"), driven(model, load_drive(None, TRIP), direct=True) as lift:
+        lift.participants[1].prepare(0.0)
+        lift.participants[1].set({"car_position": 0.0, "counterweight_position": 100.0})
+        lift.participants[1].begin()
