@@ -45,9 +45,10 @@ class Run:
         pairs = [(self._variable(kind, ref), value) for ref, value in zip(refs, values, strict=True)]
         if problems := [text for one, value in pairs if (text := self._refusal(one, value))]:
             raise InputError("; ".join(problems))
-        self._values.update({one.name: one.cast(value) for one, value in pairs})
-        if not self._running:
+        changed = self._values | {one.name: one.cast(value) for one, value in pairs}
+        if not self._running and changed != self._values:
             self._engine = None
+        self._values = changed
 
     def begin(self) -> None:
         """Fix the parameters and make the engine; refuses impossible values, all problems in one sentence."""

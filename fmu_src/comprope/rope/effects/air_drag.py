@@ -26,6 +26,8 @@ class ShaftAirflow(Effect):
     """Lateral air flow in the shaft, driven by the car."""
 
     name = "shaft_airflow"
+    probes = {"crossflow_ratio": (0.3, -0.3)}
+    brings = {"effects.air_drag.drag_coefficient": 1.1}
     crossflow_ratio: float = quantity(
         "1", "outward lateral air velocity on both sides over the car's velocity (up positive)", -2.0, 2.0, nominal=0.3, off=0.0
     )

@@ -27,12 +27,20 @@ HOOKS = ("moments", "forces", "tangents", "ends", "groove", "begin")
 
 
 class Effect(Component):
-    """Base of all effects; `hooks` holds its kernels, `states` its sections of history per node."""
+    """Base of all effects; `hooks` holds its kernels, `states` its sections of history per node.
+
+    For the diagnosis: `probes` are values to try for quantities in which the response is not linear,
+    `polar` names an amplitude and a phase that stand for a cosine and a sine, and `brings` are other
+    effects' values that this one cannot do without.
+    """
 
     name: ClassVar[str]
     hooks: ClassVar[dict[str, Kernel]] = {}
     states: ClassVar[int] = 0
     first_state: ClassVar[int] = 0
+    probes: ClassVar[dict[str, tuple[float, ...]]] = {}
+    polar: ClassVar[tuple[str, str] | None] = None
+    brings: ClassVar[dict[str, float]] = {}
 
 
 REGISTRY: dict[str, type[Effect]] = {}

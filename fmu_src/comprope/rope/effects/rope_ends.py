@@ -15,6 +15,7 @@ class BuildingSway(Effect):
     """Harmonic sway of the building, growing linearly from the pit to the top landing."""
 
     name = "building_sway"
+    polar = ("amplitude", "phase")
     amplitude: float = quantity("m", "amplitude at the top landing, towards the counterweight's side", 0.0, 5.0, nominal=0.05, off=0.0)
     frequency: float = quantity("Hz", "frequency", 0.001, 20.0, nominal=0.2, off=0.2)
     phase: float = quantity("rad", "phase at time zero, of a sine", -2 * pi, 2 * pi, default=0.0, nominal=1.0)

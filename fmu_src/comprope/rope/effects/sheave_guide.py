@@ -34,6 +34,7 @@ class SheaveDamper(Effect):
     """A tie-down damper on the sheave."""
 
     name = "sheave_damper"
+    probes = {"damping": (1e3, 1e4, 1e5)}
     damping: float = quantity("N.s/m", "force per vertical velocity of the sheave", 0.0, 1e7, nominal=1e4, off=0.0)
 
 

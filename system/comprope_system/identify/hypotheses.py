@@ -1,0 +1,118 @@
+"""What may be wrong with a model: plant parameters that are never exact, and effects that may be missing.
+
+A direction is a set of changes of the model, applied in proportion to one coefficient. Nuisance
+parameters are always refitted; each effect's directions come from its own declaration.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import product
+from math import cos, hypot, pi, sin, atan2
+
+from comprope.declare import Quantity, quantities
+from comprope.rope.effects.base import REGISTRY, Effect
+
+INSTRUMENT = ("sensor_gain", "sensor_offset", "sensor_delay")
+
+
+@dataclass(frozen=True)
+class Direction:
+    """One coefficient: `changes` of the model when it is 1, its prior standard deviation and bounds."""
+
+    name: str
+    changes: Mapping[str, float]
+    prior: float
+    lower: float = -float("inf")
+    upper: float = float("inf")
+    relative: bool = False
+
+
+def _plant(key: str, prior: float) -> Direction:
+    return Direction(key, {key: 1.0}, prior, -0.9, 3.0, relative=True)
+
+
+# How well a plant's data sheet is usually known: relative standard deviations.
+NUISANCES = (
+    _plant("rope.bending_stiffness", 0.15),
+    _plant("rope.bending_damping", 0.4),
+    _plant("rope.mass_per_length", 0.06),
+    _plant("rope.axial_stiffness", 0.1),
+    _plant("contact.friction_coefficient", 0.3),
+    _plant("contact.stiffness", 0.4),
+    _plant("sheave.mass", 0.01),
+    _plant("sheave.inertia", 0.02),
+    _plant("shaft.pit", 0.004),
+    Direction("rope.external_damping", {"rope.external_damping": 1.0}, 0.01, -0.02, 1.0),
+)
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """One way in which an effect may act: its directions, and what stays fixed with it.
+
+    `polar` is (amplitude, phase) where the two directions are its cosine and sine.
+    """
+
+    effect: str
+    directions: tuple[Direction, ...]
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    polar: tuple[str, str] | None = None
+
+    def parameters(self, coefficients: list[float]) -> dict[str, float]:
+        """Values of model keys for coefficients of the directions."""
+        values: dict[str, float] = {}
+        for direction, coefficient in zip(self.directions, coefficients, strict=True):
+            for key, amount in direction.changes.items():
+                values[key] = values.get(key, 0.0) + coefficient * amount
+        if self.polar:
+            c, s = (coefficient * one.prior for coefficient, one in zip(coefficients, self.directions, strict=True))
+            values = {self.polar[0]: hypot(c, s), self.polar[1]: atan2(s, c)}
+        return dict(self.fixed) | values
+
+
+def hypotheses(frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
+    """All hypotheses about the registered effects; `frequencies` [Hz] are tried where an effect has one."""
+    return [one for effect in REGISTRY.values() for one in of_effect(effect, frequencies)]
+
+
+def of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypothesis]:
+    """One hypothesis for each combination of the values to try."""
+    tried = dict(effect.probes)
+    declared = {one.name: one for one in quantities(effect)}
+    if "frequency" in declared:
+        tried["frequency"] = frequencies or (declared["frequency"].nominal,)
+    amplitudes = [one for one in declared.values() if _is_amplitude(one, effect)]
+    found = []
+    for values in product(*tried.values()):
+        chosen = dict(zip(tried, values, strict=True))
+        others = {f"effects.{effect.name}.{k}": v for k, v in chosen.items() if k not in {a.name for a in amplitudes}}
+        directions = tuple(_direction(effect, one, chosen.get(one.name)) for one in amplitudes)
+        found.append(_assembled(effect, directions, others | dict(effect.brings)))
+    return found
+
+
+def _is_amplitude(one: Quantity, effect: type[Effect]) -> bool:
+    phase = effect.polar is not None and one.name == effect.polar[1]
+    return one.neutral == 0.0 and not phase
+
+
+def _direction(effect: type[Effect], one: Quantity, probe: float | None) -> Direction:
+    """The amplitude as a coefficient of its typical value; of a value to try it may stray by a factor of three."""
+    key, size = f"effects.{effect.name}.{one.name}", probe if probe is not None else one.nominal
+    lower, upper = sorted((one.minimum / size, one.maximum / size))
+    return Direction(key, {key: size}, 3.0, max(lower, 0.0) if probe is not None else lower, upper)
+
+
+def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: dict[str, float]) -> Hypothesis:
+    if effect.polar is None:
+        return Hypothesis(effect.name, directions, fixed)
+    amplitude, phase = (f"effects.{effect.name}.{name}" for name in effect.polar)
+    size = directions[0].changes[amplitude]
+    pair = tuple(
+        Direction(f"{amplitude}.{word}", {amplitude: size, phase: angle}, 3.0, -float("inf"), float("inf"))
+        for word, angle in (("cosine", 0.0), ("sine", 0.5 * pi))
+    )
+    return Hypothesis(effect.name, pair, fixed, (amplitude, phase))
+
+
+__all__ = ["INSTRUMENT", "NUISANCES", "Direction", "Hypothesis", "cos", "hypotheses", "of_effect", "sin"]

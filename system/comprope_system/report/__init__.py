@@ -1,0 +1,1 @@
+"""Pages of results: self-contained HTML of one plain look."""

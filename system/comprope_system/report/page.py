@@ -1,0 +1,103 @@
+"""Compose a page: sections of paragraphs, tables and pictures, in one file that needs no network."""
+
+import base64
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from matplotlib.figure import Figure
+
+from comprope.whole import whole_file
+
+DPI = 130
+MARKS = {"yes": "yes", "no": "no", "partly": "partly", "pass": "yes", "fail": "no"}
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of texts; columns whose cells all begin like numbers are set to the right, marks are coloured."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    caption: str = ""
+
+    def numeric(self, column: int) -> bool:
+        """Whether a column holds numbers only."""
+        cells = [row[column] for row in self.rows]
+        return bool(cells) and all(cell[:1] in "-−+.0123456789" and len(cell) < 14 for cell in cells if cell)
+
+    def mark(self, cell: str) -> str:
+        """The class of a cell that is a mark such as "yes" or "fail"; empty for any other."""
+        return MARKS.get(cell, "")
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure, with a name that its file will have and a caption."""
+
+    name: str
+    figure: Figure
+    caption: str = ""
+
+    @cached_property
+    def png(self) -> bytes:
+        """The figure as PNG."""
+        buffer = io.BytesIO()
+        self.figure.savefig(buffer, format="png", dpi=DPI, metadata={"Software": None})
+        return buffer.getvalue()
+
+    @cached_property
+    def source(self) -> str:
+        """The figure as the source of an HTML image."""
+        return f"data:image/png;base64,{base64.b64encode(self.png).decode()}"
+
+
+Block = str | Table | Picture
+
+
+@dataclass(frozen=True)
+class Section:
+    """One section of a page: a name for links, a title, words quoted from elsewhere, and what it shows."""
+
+    name: str
+    title: str
+    blocks: Sequence[Block]
+    quote: str = ""
+
+
+def render(template: str, title: str, lead: str = "", **values: Any) -> str:
+    """The text of a page from a template of this folder, which extends `base.html`."""
+    environment = Environment(
+        loader=PackageLoader(__name__.rpartition(".")[0], ""),
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+    )  # fmt: skip
+    style = Path(__file__).with_name("style.css").read_text(encoding="utf-8")
+    return environment.get_template(template).render(title=title, lead=lead, style=style, version=_version(), **values)
+
+
+def save_page(path: str | Path, title: str, lead: str, sections: Sequence[Section]) -> None:
+    """Write a page of sections, whole or not at all."""
+    with whole_file(path) as temporary:
+        temporary.write_text(render("sections.html", title, lead, sections=sections), encoding="utf-8")
+
+
+def save_pictures(folder: Path, sections: Sequence[Section]) -> list[Path]:
+    """Write every picture of the sections into a folder as a PNG file; returns their paths."""
+    paths = []
+    for picture in (block for section in sections for block in section.blocks if isinstance(block, Picture)):
+        paths.append(folder / f"{picture.name}.png")
+        with whole_file(paths[-1]) as temporary:
+            temporary.write_bytes(picture.png)
+    return paths
+
+
+def _version() -> str:
+    try:
+        return version("comprope")
+    except PackageNotFoundError:
+        return ""

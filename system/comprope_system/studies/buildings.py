@@ -1,0 +1,39 @@
+"""The paper's two installations, as far as its text states them, with the presets' values for the rest."""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from comprope.drive.trajectory import Trip
+from comprope.rope.effects import RopeModel
+from comprope.rope.modelfile import load, with_changes
+
+from ..presets import model_path
+from ..ride import trip_of
+
+TOWER, BUILDING = "tower50", "building200"
+LIMITS = {  # speed [m/s], acceleration [m/s2] of Tables 2 and 3; jerk [m/s3]: customary, and from the 10.2 s of Fig. 7
+    TOWER: (2.5, 0.8, 0.8),
+    BUILDING: (9.0, 1.1, 0.93),
+}
+
+
+@cache
+def _loaded(name: str) -> RopeModel:
+    return load(model_path(name))
+
+
+def building(name: str, changes: Mapping[str, Any] | None = None) -> RopeModel:
+    """A preset or model file with some values changed."""
+    return with_changes(_loaded(name), changes or {})
+
+
+def with_sheave(name: str, mass: float) -> dict[str, float]:
+    """Changes that give a building a sheave of another mass [kg], its inertia in proportion: the same disc, lighter."""
+    sheave = _loaded(name).sheave
+    return {"sheave.mass": mass, "sheave.inertia": sheave.inertia * mass / sheave.mass}
+
+
+def up(name: str, distance: float) -> Trip:
+    """The trip up from the bottom landing over a distance [m]; a model file runs as the 200 m building does."""
+    return trip_of(distance, *LIMITS.get(name, LIMITS[BUILDING]))

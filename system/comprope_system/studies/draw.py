@@ -1,0 +1,33 @@
+"""One look for the figures of studies and verification."""
+
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+FIRST, SECOND, THIRD, FOURTH, GREY = "#0b4f8a", "#d9772b", "#2a8c6e", "#8a3f8f", "#9aa5b1"
+COLOURS = (FIRST, SECOND, THIRD, FOURTH, "#b3361b", "#5b7fa6", "#b89b2e", GREY)
+
+
+def panels(columns: int = 1, rows: int = 1, height: float = 3.6) -> tuple[Figure, Sequence[Axes]]:
+    """A figure with its panels, row by row."""
+    figure = Figure(figsize=(9.0, height * rows), layout="constrained")
+    axes = [figure.add_subplot(rows, columns, k + 1) for k in range(rows * columns)]
+    for one in axes:
+        one.grid(color="#e6e9ed", linewidth=0.7)
+        one.set_axisbelow(True)
+        one.spines[["top", "right"]].set_visible(False)
+    return figure, axes
+
+
+def label(axes: Axes, x: str, y: str, title: str = "") -> None:
+    """Name both axes, and the panel."""
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    if title:
+        axes.set_title(title, loc="left", fontsize=10.5)
+
+
+def legend(axes: Axes, **options: object) -> None:
+    """The legend, without a frame."""
+    axes.legend(frameon=False, fontsize=8.5, **options)

@@ -1,0 +1,61 @@
+"""What a study is: cases to run, a function that runs one, and what it makes of their results."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..report.page import Block, Section, Table
+from ..sweep import Case, Task
+
+AGREES, DIFFERS, PARTLY = "yes", "no", "partly"
+
+
+@dataclass(frozen=True)
+class Ask:
+    """What a user can choose: building, running distance [m] and limit [m] of the design study."""
+
+    building: str = "building200"
+    distance: float = 22.0
+    limit: float = 0.005
+
+
+@dataclass(frozen=True)
+class Fact:
+    """Something the paper states, and what was obtained; `agrees` is "yes", "no" or "partly"."""
+
+    what: str
+    stated: str
+    obtained: str
+    agrees: str
+
+
+@dataclass(frozen=True)
+class Finding:
+    """The outcome of a study: facts side by side, then paragraphs, tables and pictures."""
+
+    facts: Sequence[Fact]
+    blocks: Sequence[Block]
+
+
+@dataclass(frozen=True)
+class Study:
+    """`cases(ask)` are run by `task`, in any order and place; `tell(ask, values)` makes the finding.
+
+    `quote` is what the paper says, `title` where.
+    """
+
+    name: str
+    title: str
+    quote: str
+    cases: Callable[[Ask], list[Case]]
+    task: Task
+    tell: Callable[[Ask, list[Any]], Finding]
+
+    def section(self, finding: Finding) -> Section:
+        """The finding as a section of a page."""
+        return Section(self.name, self.title, [fact_table(finding.facts), *finding.blocks], self.quote)
+
+
+def fact_table(facts: Sequence[Fact], caption: str = "") -> Table:
+    """Facts as a table."""
+    return Table(("", "stated", "obtained", "agrees"), [(one.what, one.stated, one.obtained, one.agrees) for one in facts], caption)

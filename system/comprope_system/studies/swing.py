@@ -1,0 +1,88 @@
+"""How far the rope swings on a trip up from the bottom, by every measure that a figure may have meant."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from comprope.rope.model import CompensationRope
+
+from ..ride import Floats, record, side_shape
+from ..sweep import Case
+from .buildings import building, up
+
+AFTER = 20.0  # s watched after the trip: the rope's slowest period and more
+FRACTIONS = np.linspace(0.02, 0.98, 25)  # of the free length, from the axle to the end
+MIDDLE = len(FRACTIONS) // 2
+
+# Measures, each one number [m] for one trip, in words.
+MEASURES = {
+    "middle_after": "middle of the rope, half its swing after the trip",
+    "middle_rest": "middle of the rope, farthest from rest, trip included",
+    "whole_after": "anywhere on the side, half the swing after the trip",
+    "whole_rest": "anywhere on the side, farthest from rest, trip included",
+    "outward": "anywhere on the side, farthest outward, static offset included",
+    "low_rest": "sensor 2 m above the axle, farthest from rest",
+    "half_shaft_after": "sensor at half the shaft's height, half the swing after the trip",
+    "half_shaft_rest": "sensor at half the shaft's height, farthest from rest",
+    "car_after": "middle of the car's side, half the swing after the trip",
+}
+
+
+def swing_case(name: str, distance: float, changes: Mapping[str, Any] | None = None) -> Case:
+    """A case for `swing`."""
+    return {"building": name, "distance": distance, "changes": dict(changes or {})}
+
+
+def swing(case: Case) -> dict[str, Any]:
+    """Run a trip; its duration [s], every one of MEASURES [m], and half the swing after it by height [m]."""
+    model, trip = building(case["building"], case["changes"]), up(case["building"], case["distance"])
+    low = 2.0 - model.shaft.pit
+    heights = np.concatenate([[low, 0.5 * model.shaft.height], np.linspace(0.0, model.shaft.height, 41)])
+
+    def look(rope: CompensationRope) -> Floats:
+        return np.concatenate([_along(rope, "counterweight"), side_shape(rope, "counterweight", heights), _along(rope, "car")])
+
+    time, seen = record(model, trip, trip.end_time + AFTER, look)
+    own, fixed, car = np.split(seen, [len(FRACTIONS), len(FRACTIONS) + len(heights)], axis=1)
+    after = time > trip.end_time
+    by_height = half_swing(fixed[after][:, 2:])
+    return {
+        "duration": trip.duration,
+        "heights": heights[2:].tolist(),
+        "by_height": np.where(np.isfinite(by_height), by_height, -1.0).tolist(),
+        **_measures(own, fixed, car, after),
+    }
+
+
+def _along(rope: CompensationRope, side: str) -> Floats:
+    """Outward displacement [m] at FRACTIONS of a side's free length."""
+    q, n = rope.state.q, rope.n
+    axle, end = -q[n], -q[n - 1 if side == "counterweight" else 0]
+    return side_shape(rope, side, axle + FRACTIONS * (end - axle))
+
+
+def _measures(own: Floats, fixed: Floats, car: Floats, after: Floats) -> dict[str, float]:
+    """MEASURES from displacements over time (times, places) along the side, at fixed heights and along the car's side."""
+    return {
+        "middle_after": float(half_swing(own[after])[MIDDLE]),
+        "middle_rest": float(from_rest(own)[MIDDLE]),
+        "whole_after": float(half_swing(own[after]).max()),
+        "whole_rest": float(np.nanmax(from_rest(fixed))),
+        "outward": float(own.max()),
+        "low_rest": float(from_rest(fixed)[0]),
+        "half_shaft_after": float(half_swing(fixed[after])[1]),
+        "half_shaft_rest": float(from_rest(fixed)[1]),
+        "car_after": float(half_swing(car[after])[MIDDLE]),
+    }
+
+
+def half_swing(values: Floats) -> Floats:
+    """Half of the range over time, for each place (times, places); NaN where the rope was away for a while."""
+    return 0.5 * (values.max(axis=0) - values.min(axis=0))
+
+
+def from_rest(values: Floats) -> Floats:
+    """The farthest from the first value over time, for each place; moments when the rope is away do not count."""
+    away = np.abs(values - values[0])
+    return np.where(np.isfinite(away), away, 0.0).max(axis=0)
