@@ -3,7 +3,6 @@
 import re
 import tomllib
 from collections.abc import Mapping
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,7 @@ from pydantic import ValidationError
 from ..errors import InputError
 from ..explain import problems
 from ..whole import whole_file
-from .effects import REGISTRY, RopeModel, model_type
+from .effects import RopeModel, model_type
 
 _NO_KEY = "not the key of a single value in this model, such as sheave.mass or sensors[1].height"
 
@@ -59,7 +58,7 @@ def with_changes(model: RopeModel, changes: Mapping[str, Any], source: str = "ch
 
 def validated(table: Mapping[str, Any], source: str) -> RopeModel:
     """The model a table describes; `source` begins each line of the `InputError` if it describes none."""
-    kind = _type_with(tuple(REGISTRY.items()))
+    kind = model_type()
     try:
         return kind.model_validate(_frozen(table))
     except ValidationError as error:
@@ -85,12 +84,6 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     except RecursionError:
         raise InputError(f"{path}: not valid TOML: nested too deeply") from None
-
-
-@cache
-def _type_with(_effects: tuple[tuple[str, type], ...]) -> type[RopeModel]:
-    """One type of model for one set of effects, so that models read apart can be equal."""
-    return model_type()
 
 
 def _frozen(value: Any) -> Any:

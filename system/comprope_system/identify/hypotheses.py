@@ -7,15 +7,15 @@ parameters are always refitted; each effect's directions come from its own decla
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import product
-from math import cos, hypot, pi, sin, atan2
+from math import atan2, hypot, pi
 
 from comprope.declare import Quantity, quantities
-from comprope.rope.effects.base import REGISTRY, Effect
+from comprope.rope.effects import INSTRUMENT, REGISTRY, Effect
 
-INSTRUMENT = ("sensor_gain", "sensor_offset", "sensor_delay")
+from .campaign import Channel
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Direction:
     """One coefficient: `changes` of the model when it is 1, its prior standard deviation and bounds."""
 
@@ -42,11 +42,11 @@ NUISANCES = (
     _plant("sheave.mass", 0.01),
     _plant("sheave.inertia", 0.02),
     _plant("shaft.pit", 0.004),
-    Direction("rope.external_damping", {"rope.external_damping": 1.0}, 0.01, -0.02, 1.0),
+    Direction("rope.external_damping", {"rope.external_damping": 1.0}, 0.01, 0.0, 1.0),
 )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Hypothesis:
     """One way in which an effect may act: its directions, and what stays fixed with it.
 
@@ -57,16 +57,22 @@ class Hypothesis:
     directions: tuple[Direction, ...]
     fixed: Mapping[str, float] = field(default_factory=dict)
     polar: tuple[str, str] | None = None
+    base: float = 0.0
+
+    @property
+    def is_instrument(self) -> bool:
+        """Whether this is a fault of an instrument, not of the rope."""
+        return self.effect in INSTRUMENT
 
     def parameters(self, coefficients: list[float]) -> dict[str, float]:
         """Values of model keys for coefficients of the directions."""
         values: dict[str, float] = {}
         for direction, coefficient in zip(self.directions, coefficients, strict=True):
             for key, amount in direction.changes.items():
-                values[key] = values.get(key, 0.0) + coefficient * amount
+                values[key] = values.get(key, self.base) + coefficient * amount
         if self.polar:
-            c, s = (coefficient * one.prior for coefficient, one in zip(coefficients, self.directions, strict=True))
-            values = {self.polar[0]: hypot(c, s), self.polar[1]: atan2(s, c)}
+            size = self.directions[0].changes[self.polar[0]]
+            values = {self.polar[0]: size * hypot(*coefficients), self.polar[1]: atan2(coefficients[1], coefficients[0])}
         return dict(self.fixed) | values
 
 
@@ -89,6 +95,22 @@ def of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypo
         directions = tuple(_direction(effect, one, chosen.get(one.name)) for one in amplitudes)
         found.append(_assembled(effect, directions, others | dict(effect.brings)))
     return found
+
+
+def of_instruments(channels: Mapping[str, Channel]) -> list[Hypothesis]:
+    """One hypothesis for each fault of each channel; an offset shows only where the channel is absolute."""
+    found = []
+    for column, channel in channels.items():
+        found.append(_fault("sensor_gain", column, 0.02, 10.0, 1.0))
+        found.append(_fault("sensor_delay", column, 0.01, 10.0, 0.0))
+        if channel.reference == "absolute":
+            found.append(_fault("sensor_offset", column, channel.scale * (channel.noise or 0.1), 30.0, 0.0))
+    return found
+
+
+def _fault(effect: str, column: str, size: float, prior: float, base: float) -> Hypothesis:
+    key = f"effects.{effect}.{column}"
+    return Hypothesis(effect, (Direction(key, {key: size}, prior),), base=base)
 
 
 def _is_amplitude(one: Quantity, effect: type[Effect]) -> bool:
@@ -114,5 +136,3 @@ def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: d
     )
     return Hypothesis(effect.name, pair, fixed, (amplitude, phase))
 
-
-__all__ = ["INSTRUMENT", "NUISANCES", "Direction", "Hypothesis", "cos", "hypotheses", "of_effect", "sin"]

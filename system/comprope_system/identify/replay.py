@@ -39,7 +39,15 @@ def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: fl
         whole = CubicSpline(grid, seen[column][:, 0])(run.time)
         hidden = np.interp(run.time, grid, seen[column][:, 1]) < 1.0
         values[column] = np.where(hidden, np.nan, whole)
-    return Replay(referred(values, run, channels), rope.count["newton"], rope.count["halved"])
+    shown = {column: instrument(changed, column, run.time, value) for column, value in values.items()}
+    return Replay(referred(shown, run, channels), rope.count["newton"], rope.count["halved"])
+
+
+def instrument(model: RopeModel, column: str, time: Floats, value: Floats) -> Floats:
+    """What a channel's instrument makes of the true value: delayed, with its gain, from its offset."""
+    gain, offset, delay = ((getattr(model.effects, name) or {}).get(column) for name in ("sensor_gain", "sensor_offset", "sensor_delay"))
+    late = np.interp(time - delay, time, value) if delay else value
+    return (1.0 if gain is None else gain) * late + (offset or 0.0)
 
 
 def referred(values: dict[str, Floats], run: Run, channels: Mapping[str, Channel]) -> dict[str, Floats]:

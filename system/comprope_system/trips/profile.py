@@ -12,6 +12,7 @@ from .trip import Piece
 Floats = NDArray[np.float64]
 
 SHORTEST_RAMP = 1e-3  # s; a ramp of the acceleration takes time, or the jerk would be infinite
+MOST_TRIALS = 150  # of a fit; a profile settles within a hundred, and a car that follows none need not be waited for
 
 
 def jerk_limited(origin: float, distance: float, start: float, phases: Floats) -> Piece:
@@ -96,7 +97,8 @@ def _fit(time: Floats, position: Floats, noise: float, phases: NDArray[np.int_],
 
     # The first, robust pass is not drawn aside by outliers; the second one, without them, is the best fit.
     for loss in ("soft_l1", "linear"):
-        solution = least_squares(residual, parameters, bounds=(lower, np.inf), x_scale="jac", loss=loss, f_scale=3.0)
+        bounds = (lower, np.inf)
+        solution = least_squares(residual, parameters, bounds=bounds, x_scale="jac", loss=loss, f_scale=3.0, max_nfev=MOST_TRIALS)
         parameters = solution.x
         piece = _shape(parameters, phases)
         misfit = (position - piece.value(time)) / noise

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -52,7 +53,7 @@ class Trip:
 
     def mirrored(self, height: float) -> "Trip":
         """The trip of the counterweight in a shaft of this height [m]: height less the car's position."""
-        pieces = tuple(Piece(_negative(one.curve), one.start, one.stop) for one in self.pieces)
+        pieces = tuple(Piece(partial(_negative, one.curve), one.start, one.stop) for one in self.pieces)
         level = Piece(constant(height), self.rest_before, self.rest_before)
         return Trip((*pieces, level), self.noise, self.kind)
 
@@ -76,12 +77,13 @@ class Trip:
 
 def constant(value: float) -> Curve:
     """The curve that is `value` everywhere."""
-
-    def curve(time: NDArray[np.float64], order: int = 0) -> NDArray[np.float64]:
-        return np.full(np.shape(time), 0.0 if order else value)
-
-    return curve
+    return partial(_constant, value)
 
 
-def _negative(curve: Curve) -> Curve:
-    return lambda time, order=0: -curve(time, order)
+# Module functions, not closures: a trip goes to other processes with its curves.
+def _constant(value: float, time: NDArray[np.float64], order: int = 0) -> NDArray[np.float64]:
+    return np.full(np.shape(time), 0.0 if order else value)
+
+
+def _negative(curve: Curve, time: NDArray[np.float64], order: int = 0) -> NDArray[np.float64]:
+    return -curve(time, order)

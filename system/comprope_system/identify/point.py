@@ -1,0 +1,55 @@
+"""A point in the space of what is fitted, and the model's predictions there."""
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.rope.effects import RopeModel
+from comprope.rope.model import values_of
+
+from .campaign import Campaign, Channel, Run
+from .hypotheses import NUISANCES
+from .replay import replay
+
+Floats = NDArray[np.float64]
+Predictions = dict[tuple[str, str], Floats]
+
+
+@dataclass(frozen=True)
+class Point:
+    """Nuisance coefficients by name (0: as the model file has it), and model keys that effects set."""
+
+    plant: Mapping[str, float] = field(default_factory=dict)
+    effects: Mapping[str, float] = field(default_factory=dict)
+
+    def changes(self, model: RopeModel, run: Run) -> dict[str, Any]:
+        """Everything that differs from the model file in a run at this point."""
+        base = values_of(model) | {key: value for key, value in run.changes.items() if isinstance(value, (int, float))}
+        changed: dict[str, Any] = dict(run.changes) | dict(self.effects)
+        for one in NUISANCES:
+            coefficient = self.plant.get(one.name, 0.0)
+            if coefficient:
+                changed[one.name] = base[one.name] * (1.0 + coefficient) if one.relative else max(base[one.name] + coefficient, 0.0)
+        return changed
+
+
+def submit(campaign: Campaign, runs: Sequence[Run], point: Point, executor: Executor) -> list[Future[dict[str, Floats]]]:
+    """Start the replays of some runs at a point."""
+    return [
+        executor.submit(predict, campaign.model, replace(run, changes=point.changes(campaign.model, run)), campaign.channels)
+        for run in runs
+    ]
+
+
+def predict(model: RopeModel, run: Run, channels: Mapping[str, Channel]) -> dict[str, Floats]:
+    """Channels of one run as the model has them."""
+    return replay(model, run, channels).values
+
+
+def gathered(runs: Sequence[Run], jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions:
+    """Predictions of runs by (file, column)."""
+    return {(run.file, column): value for run, job in zip(runs, jobs, strict=True) for column, value in job.result().items()}
