@@ -8,7 +8,7 @@ one and the same in thousands of samples, which a plain likelihood would count a
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import log
 
 import numpy as np
@@ -130,12 +130,21 @@ def _look(problem: Problem, one: Hypothesis, y: Floats, plant: Floats, by: Float
 
 
 def _refined(problem: Problem, origin: Point, screened: list[Screened], plant: Floats, none: Fitted, say: Say) -> list[tuple[Screened, Fitted, bool]]:
+    """Every effect fitted: the promising ones on the full model, the others as the linear look has them.
+
+    Promising is what the linear look gives at least a tenth of what its best gives.
+    """
+    worst = max(one.misfit for one in screened)
+    best_gain = worst - screened[0].misfit
     found = []
     for rank, one in enumerate(screened):
-        closer = rank < REFINED and one.misfit < 0.98 * none.misfit
-        say(f"{one.hypothesis.effect}, {'refined' if closer else 'evaluated'}")
-        start = one.start if closer else np.concatenate([none.coefficients, one.start[len(NUISANCES) :]])
-        fitted = refine(problem, one.hypothesis, start, origin, plant, rounds=6 if closer else 1)
+        closer = rank < REFINED and worst - one.misfit > max(0.1 * best_gain, 0.01 * len(problem.data))
+        if closer:
+            say(f"{one.hypothesis.effect}, on the full model")
+            fitted = refine(problem, one.hypothesis, one.start, origin, plant)
+        else:
+            share = one.misfit / worst
+            fitted = replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=none.misfit * share, cost=none.cost * share)
         found.append((one, fitted, closer))
     return found
 

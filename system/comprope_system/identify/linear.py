@@ -39,13 +39,19 @@ def by_effect(problem: Problem, hypothesis: Hypothesis, plant: Point, coefficien
     if hypothesis.is_instrument:
         return _by_instrument(problem, hypothesis, at)
     y = problem.whitened(at)
-    steps = [1.0 if abs(c) < 0.1 else 0.1 * c for c in coefficients]
+    steps = [_step(c, one) for c, one in zip(coefficients, hypothesis.directions, strict=True)]
     moved = []
     for k, h in enumerate(steps):
         there = [c + (h if j == k else 0.0) for j, c in enumerate(coefficients)]
         moved.append(with_effect(plant, hypothesis, there))
     found = problem.predictions(*moved)
     return np.column_stack([(problem.whitened(one) - y) / h for one, h in zip(found, steps, strict=True)])
+
+
+def _step(coefficient: float, direction: Direction) -> float:
+    """A tenth of a coefficient, or the whole typical value from zero; turned round at the upper bound."""
+    step = 1.0 if abs(coefficient) < 0.1 else 0.1 * coefficient
+    return step if direction.lower <= coefficient + step <= direction.upper else -step
 
 
 def unit_points(origin: Point, hypothesis: Hypothesis) -> list[Point]:
