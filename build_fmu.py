@@ -1,4 +1,7 @@
-"""Build the FMUs: `python build_fmu.py` writes dist/CompensationRope.fmu and dist/ElevatorDrive.fmu."""
+"""Build the FMUs: `python build_fmu.py` writes dist/CompensationRope.fmu and dist/ElevatorDrive.fmu.
+
+With `--native` it writes dist/CompensationRope-native.fmu as well, which needs no Python.
+"""
 
 import argparse
 import sys
@@ -40,6 +43,8 @@ def main(arguments: list[str] | None = None) -> int:
         origin = Origin(_version(), (ROOT / "LICENSE").read_text("utf-8"))
         for path in (build_rope(options.model, options.sensors, options.out, origin), build_drive(options.out, origin)):
             sys.stdout.write(f"{path}\n")
+        if options.native:
+            sys.stdout.write(f"{build_native_rope(options.model, options.sensors, options.out, origin)}\n")
     except CompropeError as error:
         sys.stderr.write(f"{error}\n")
         return 2 if isinstance(error, InputError) else 1
@@ -48,9 +53,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def build_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
     """The rope's FMU, its parameters starting at the values of a model file."""
-    model = load(model_file)
-    if sensors is not None:
-        model = with_sensors(model, sensors)
+    model = model_with(model_file, sensors)
     with tempfile.TemporaryDirectory() as folder:
         bundled = Path(folder) / "model.toml"
         dump(model, bundled)
@@ -58,9 +61,24 @@ def build_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin)
     return build(rope_interface(model), ["rope"], ROPE_ENTRY, out, origin, data)
 
 
+def build_native_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
+    """The rope's FMU that needs no Python, for every system that can be compiled for here."""
+    from comprope.native.build import build_native  # loads the compiler, which the others do without
+    from comprope.native.link import toolchain
+
+    sys.stderr.write(f"compiling with {toolchain()}\n")
+    return build_native(rope_interface(model_with(model_file, sensors)), out, origin)
+
+
 def build_drive(out: Path, origin: Origin) -> Path:
     """The drive's FMU."""
     return build(drive_interface(), ["drive"], DRIVE_ENTRY, out, origin)
+
+
+def model_with(model_file: Path, sensors: int | None) -> RopeModel:
+    """The model of a file, with another number of sensors if one is given."""
+    model = load(model_file)
+    return model if sensors is None else with_sensors(model, sensors)
 
 
 def with_sensors(model: RopeModel, count: int) -> RopeModel:
@@ -80,6 +98,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--model", type=Path, default=DEFAULT_MODEL, metavar="MODEL.toml", help="rope model to start from")
     parser.add_argument("--sensors", type=int, metavar="N", help="number of displacement sensors; default: those of the model")
     parser.add_argument("--out", type=Path, default=ROOT / "dist", metavar="DIR", help="folder to write to (default: dist)")
+    parser.add_argument("--native", action="store_true", help="the rope also as an FMU that needs no Python (with ziglang for all systems)")
     return parser.parse_args(arguments)
 
 

@@ -1,5 +1,6 @@
 """The command line: what it writes, what it says, and its exit status."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -67,8 +68,9 @@ def test_a_campaign_beside_the_run_tells_units_and_changes(tmp_path):
     from comprope_system.measured import read_run
 
     time = np.arange(0.0, 12.0, 0.02)
-    position = 2.0 + np.clip((time - 2.0) / 6.0, 0.0, 1.0) ** 3 * (10.0 - 15.0 * np.clip((time - 2.0) / 6.0, 0.0, 1.0)) * 1.0
-    pd.DataFrame({"time": time, "car_position": position, "laser": np.full(len(time), 5.0)}).to_csv(tmp_path / "up.csv", index=False)
+    way = np.clip((time - 2.0) / 6.0, 0.0, 1.0)
+    table = pd.DataFrame({"time": time, "car_position": 2.0 + way**3 * (10.0 - 15.0 * way + 6.0 * way**2), "laser": 5.0})
+    table.to_csv(tmp_path / "up.csv", index=False)
     (tmp_path / "campaign.toml").write_text(
         'name = "x"\nmodel = "m.toml"\n'
         '[[channels]]\ncolumn = "laser"\nquantity = "lateral_displacement"\nsensor = "cw_low"\nunit = "mm"\nreference = "rest"\n'
@@ -81,7 +83,7 @@ def test_a_campaign_beside_the_run_tells_units_and_changes(tmp_path):
 
 
 BAD = [
-    (["nowhere"], 'nowhere: neither a file nor a preset; accepted are building200, tower50, tower50_light'),
+    (["nowhere"], "nowhere: neither a file nor a preset; accepted are building200, tower50, tower50_light"),
     (["tower5O"], 'tower5O: neither a file nor a preset; did you mean "tower50"?'),
     (["absent.toml"], "absent.toml: cannot be read: No such file or directory"),
     (["tower50", "--set", "sheave.mas=1"], '--set: sheave.mas = 1: unknown key; did you mean "mass"?'),
@@ -152,7 +154,8 @@ def test_every_preset_has_a_drive_file():
 
 
 def test_the_module_runs_as_a_command():
-    done = subprocess.run([sys.executable, "-m", "comprope_system.cli", "simulate", "nowhere"], capture_output=True, text=True, check=False)
+    command = [sys.executable, "-m", "comprope_system.cli", "simulate", "nowhere"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr.startswith("nowhere: ") and "Traceback" not in done.stderr
 
@@ -161,5 +164,5 @@ def test_readme_commands_use_options_that_exist(capsys):
     """Options named in the README are those of the command."""
     text = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
     _, told, _ = run(capsys, "simulate", "--help")
-    used = {word for line in text.splitlines() if "comprope simulate" in line for word in line.split() if word.startswith("--")}
+    used = {word for line in text.splitlines() if "comprope simulate" in line for word in re.findall(r"--\w[\w-]*", line)}
     assert used and all(word in told for word in used)

@@ -113,7 +113,8 @@ def test_changes_bring_an_effect_in_and_leave_the_rest():
 
 
 @pytest.mark.parametrize(
-    "key", ["", "sheave..mass", "sensors[9].height", "sensors[0].height", "sensors[1]", "sheave.mass.x", "mass", "shaft[1].height"]
+    "key",
+    ["", "sheave..mass", "sensors[9].height", "sensors[0].height", "sensors[1]", "sheave.mass.x", "mass", "shaft[1].height"],
 )
 def test_changes_of_what_is_no_value_are_refused(key):
     with pytest.raises(InputError, match=r"^--set: "):

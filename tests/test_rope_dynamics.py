@@ -1,6 +1,7 @@
 """The rope in motion: frequencies, the accelerating sheave, orders of convergence, energy, and repeatability."""
 
 from functools import cache
+from itertools import pairwise
 from math import pi, sqrt
 
 import numpy as np
@@ -56,7 +57,7 @@ def string_frequencies(tension: float, length: float, count: int) -> list[float]
         return float(j0(low) * y0(top) - j0(top) * y0(low))
 
     grid = np.linspace(0.05, 12.0, 2400).tolist()
-    brackets = [(a, b) for a, b in zip(grid, grid[1:], strict=False) if mismatch(a) * mismatch(b) < 0.0]
+    brackets = [(a, b) for a, b in pairwise(grid) if mismatch(a) * mismatch(b) < 0.0]
     return [brentq(mismatch, *bracket) for bracket in brackets[:count]]
 
 
@@ -64,22 +65,14 @@ def plucked(changes: dict[str, float], until: float, height: float) -> np.ndarra
     """Displacement at a height every 20 ms after the counterweight's end has moved aside by 10 mm in half a second."""
     moving = rope({"rope.bending_damping": 0.0, "solver.numerical_damping": 0.0} | changes)
     moving.settle(0.0, 50.0)
-    rows = []
-    for k in range(round(until / 0.02)):
-        path = way(TOWER.sheave.radius, 50.0, Motion(0.0), Motion(0.0)).reshape(4, 6)
-        if k < 25:
-            path[3, [0, 3]] += [aside(0.02 * k), aside(0.02 * (k + 1))]
-        else:
-            path[3, [0, 3]] += 0.01
+    path, rows = way(TOWER.sheave.radius, 50.0, Motion(0.0), Motion(0.0)).reshape(4, 6), []
+    path[3, 3] += 0.01
+    moving.step(0.5, path.ravel())
+    path[:, :3] = path[:, 3:]
+    for _ in range(round(until / 0.02)):
         moving.step(0.02, path.ravel())
         rows.append(moving.lateral_displacement("counterweight", height)[0])
-    return np.array(rows[25:])
-
-
-def aside(t: float) -> float:
-    """10 mm within half a second, smoothly."""
-    s = t / 0.5
-    return 0.01 * s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+    return np.array(rows)
 
 
 def fitted_frequencies(seen: np.ndarray, guess: list[float]) -> np.ndarray:
@@ -105,7 +98,7 @@ def test_a_plucked_side_rings_as_a_hanging_string(changes: dict[str, float]) -> 
     found = fitted_frequencies(plucked(changes, 30.0, 12.0), expected)
     # Bending keeps the rope's end on the sheave (EI 20: half a boundary layer of 0.18 m in 51.5 m), the sheave gives
     # way a little; a step of 4 ms lowers the third frequency by (w h)^2 / 12 = 3e-5.
-    assert found[:3] == pytest.approx(expected[:3], rel=2e-3)
+    assert found[:3] == pytest.approx(expected[:3], rel=1e-3)
 
 
 # -- the sheave ----------------------------------------------------------------------------------
@@ -169,7 +162,7 @@ def test_second_order_in_time(damping: float) -> None:
     runs = [short_trip(solver__step=h, solver__numerical_damping=damping) for h in steps]
     n = runs[0][0].n
     for part in (slice(n + 1, 2 * n + 1), slice(n, n + 1), slice(2 * n + 1, None)):  # lateral, sheave's height, its angle
-        errors = [rms(a[1][:, part] - b[1][:, part]) for a, b in zip(runs, runs[1:], strict=False)]
+        errors = [rms(a[1][:, part] - b[1][:, part]) for a, b in pairwise(runs)]
         order = np.polyfit(np.log(steps[:-1]), np.log(errors), 1)[0]
         # The iteration's tolerance of 1e-8 m and slip that grips and lets go move the fit a little.
         assert order == pytest.approx(2.0, abs=0.2)
@@ -231,7 +224,6 @@ def test_restart_from_bytes_is_bit_for_bit() -> None:
     saved = go(moving, 100)
     expected = go(moving, 100)
     other.settle(3.0, 47.0)
-    go(other, 7)
     other.state.from_bytes(saved)
     assert go(other, 100) == expected
 
@@ -282,9 +274,9 @@ UNEVEN = (0.003, 0.007, 0.0125, 0.0175, 0.01, 0.02, 0.005, 0.025)  # 0.1 s in al
 def test_result_does_not_depend_on_the_communication_step(steps: tuple[float, ...], derivatives: bool) -> None:
     """Whether the engine is told positions only, or velocities and accelerations too."""
     difference = communicated(steps, derivatives) - communicated((0.001,), True)
-    # Steps of 1 ms against 4 ms make 4 um; a parabola through positions 20 ms apart lags where the jerk jumps.
-    assert np.sqrt(np.mean(difference[:, :2] ** 2, axis=0)).max() < 5e-5
-    assert np.abs(difference[:, 2]).max() < 5e-6
+    # Time steps of 1 ms against 4 ms make 3 um; the rest is how a quintic crosses a jump of the jerk.
+    assert np.sqrt(np.mean(difference[:, :2] ** 2, axis=0)).max() < 1e-5
+    assert np.abs(difference[:, 2]).max() < 3e-6
 
 
 # -- robustness ----------------------------------------------------------------------------------
@@ -302,7 +294,7 @@ def test_a_normal_trip_never_halves_a_step(trip: tuple[float, float]) -> None:
 def test_a_light_sheave_survives_the_trip(weight: float) -> None:
     moving, rows = ridden(0.0, 50.0, 26.0, (("sheave.mass", 120.0 * weight), ("sheave.inertia", 9.6 * weight)))
     assert np.all(np.isfinite(rows))
-    assert abs(moving.energy_residual) < 1e-3 * exchanged(moving)
+    assert abs(moving.energy_residual) < 1e-4 * exchanged(moving)
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.15])

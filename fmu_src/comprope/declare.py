@@ -52,7 +52,7 @@ def quantity(
     off: float | None = None,
 ) -> Any:
     """A field of a `Component`: a number in `unit` between `minimum` and `maximum`, both accepted."""
-    extra = {"unit": unit, "nominal": nominal, "off": off}
+    extra: dict[str, Any] = {"unit": unit, "nominal": nominal, "off": off}
     return Field(
         PydanticUndefined if default is None else default,
         ge=minimum,

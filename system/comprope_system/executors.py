@@ -14,17 +14,17 @@ WAIT = 10  # s to wait for a cluster
 
 
 @contextmanager
-def workers(jobs: int | None = None, address: str | None = None) -> Iterator[Executor | None]:
+def workers(jobs: int | None = None, address: str | None = None, *, fresh: bool = False) -> Iterator[Executor | None]:
     """An executor of concurrent.futures: a Dask cluster's by its address dask://HOST:PORT, else `jobs` processes.
 
     By default there is a process for each core; with `jobs` 1 there is no executor, and a sweep runs in this
-    process. Raises `InputError` for an address of another kind or where Dask is not installed,
+    process, unless a `fresh` one is asked for. Raises `InputError` for an address of another kind or where Dask is not installed,
     `SimulationError` where nobody answers.
     """
     if address is not None:
         with _dask(address) as executor:
             yield executor
-    elif (count := jobs or os.cpu_count() or 1) == 1:
+    elif (count := jobs or os.cpu_count() or 1) == 1 and not fresh:
         yield None
     else:
         # A fresh interpreter for each worker: forking one that has threads (a progress bar's) is not safe.
@@ -52,4 +52,4 @@ def _dask(address: str) -> Iterator[Executor]:
         try:
             yield executor
         finally:
-            executor.shutdown(wait=False, cancel_futures=True)
+            executor.shutdown(wait=False)

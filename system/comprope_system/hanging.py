@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from math import pi, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.special import j0, y0
 
@@ -35,6 +36,16 @@ class HangingString:
         """2 sqrt(s / g) at both ends [s]."""
         s = self.tension / (self.mass_per_length * self.gravity)
         return 2.0 * sqrt(s / self.gravity), 2.0 * sqrt((s + self.length) / self.gravity)
+
+    def height_at(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Height above the lower end [m] that a wave reaches in a share (0 to 1) of the travel time."""
+        lower, upper = self._arguments
+        return 0.25 * self.gravity * ((lower + share * (upper - lower)) ** 2 - lower**2)
+
+    def share_at(self, height: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The share of the travel time (0 to 1) after which a wave from the lower end is at a height above it [m]."""
+        lower, upper = self._arguments
+        return (np.sqrt(lower**2 + 4.0 * height / self.gravity) - lower) / (upper - lower)
 
     def wkb_period(self, half_waves: int = 1) -> float:
         """Natural period [s] of a mode by the travel time: 2 t / n; (4/g)(sqrt(c0^2 + g L) - c0) for n = 1."""

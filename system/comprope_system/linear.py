@@ -12,14 +12,17 @@ Damping and the effects' own stiffness are left out.
 """
 
 from dataclasses import dataclass
+from functools import cache
+from types import FunctionType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array
 
-from comprope.rope import dynamics, work
+from comprope.rope import contact, dynamics, elastica, hooks, work
 from comprope.rope.model import CompensationRope
-from comprope.rope.slots import MU, C
+from comprope.rope.slots import C
 
 Floats = NDArray[np.float64]
 
@@ -68,12 +71,25 @@ def _masses(rope: CompensationRope) -> Floats:
 
 def _tangent(rope: CompensationRope, p: Floats, ck: float, cc: float) -> tuple[Floats, Floats, int, int]:
     """-ck df/dq - cc df/dv at rest: the rope's band, the contact's blocks, and the nodes these reach from and to."""
-    n, m, q = rope.n, rope.n + 1, np.asarray(rope.state.q)
-    w, band, blocks = np.zeros(work.SECTIONS * m), np.zeros(work.BAND * m), np.zeros(work.CONTACT * m + 4)
-    v, f, touch, none = np.zeros(2 * m), np.zeros(2 * m), np.zeros(work.TOUCH), np.zeros(1)
-    dynamics.forces(n, 0.0, p, q, v, w, f, touch, none, none, none, blocks, ck, cc, True)
-    dynamics.tangent_band(n, 0.0, p, q, v, w, band, 0.0, ck, cc)
-    return band, blocks, int(touch[work.FIRST]), int(touch[work.LAST])
+    n, m, kernels = rope.n, rope.n + 1, _interpreted()
+    sizes = (work.SECTIONS * m, work.BAND * m, work.CONTACT * m + 4, 2 * m, 2 * m, work.TOUCH, 1)
+    w, band, blocks, v, f, touch, none = ([0.0] * size for size in sizes)
+    values, q = p.tolist(), np.asarray(rope.state.q).tolist()
+    kernels["forces"](n, 0.0, values, q, v, w, f, touch, none, none, none, blocks, ck, cc, True)
+    kernels["tangent_band"](n, 0.0, values, q, v, w, band, 0.0, ck, cc)
+    return np.array(band), np.array(blocks), int(touch[work.FIRST]), int(touch[work.LAST])
+
+
+@cache
+def _interpreted() -> dict[str, Any]:
+    """The kernels without effects, as plain functions of lists: run twice, they take less time than compiling them would."""
+    modules = (hooks, elastica, contact, dynamics)
+    names = {key: value for module in modules for key, value in vars(module).items()}
+    for key, value in names.items():
+        function = getattr(value, "py_func", value)
+        if isinstance(function, FunctionType):
+            names[key] = FunctionType(function.__code__, names, key)
+    return names
 
 
 class _Entries:

@@ -15,13 +15,16 @@ from .linear import Linear, linearise
 
 Floats = NDArray[np.float64]
 
+SHARED = 0.1  # of the energy of one side on the other: the mode is of both
+
 
 @dataclass(frozen=True)
 class Mode:
     """One natural motion.
 
-    `place` is where most of its motion is: "car" or "counterweight" for a lateral swing of that side,
-    "sheave" for what moves along the rope. `half_waves` counts those of the swing, 0 for "sheave".
+    `place` is where most of its motion is: "car" or "counterweight" for a lateral swing of that side, "both" where
+    equal sides share it, "sheave" for what moves along the rope. `half_waves` counts those of the swing on a side,
+    0 for "sheave".
     `shape` (n + 1, 2) is the displacement x (down), y of each node and of the sheave (height, angle times
     radius), its largest number 1.
     """
@@ -48,7 +51,7 @@ class Modes:
     def first(self, place: str = "counterweight", half_waves: int = 1) -> Mode:
         """The mode of a side with so many half waves; raises `LookupError` if it was not asked for."""
         for mode in self.modes:
-            if (mode.place, mode.half_waves) == (place, half_waves):
+            if mode.place in (place, "both") and mode.half_waves == half_waves:
                 return mode
         raise LookupError(f"{place}, {half_waves}")
 
@@ -84,9 +87,9 @@ def _mode(rope: CompensationRope, square: float, motion: Floats) -> Mode:
     shape = motion.T.copy()
     shape[n, 1] *= rope.model.sheave.radius
     shape /= shape.flat[np.argmax(np.abs(shape))]
-    place = _place(rope, motion, x)
-    sides = {"car": slice(0, int(np.argmax(x))), "counterweight": slice(int(np.argmax(x)), n)}
-    waves = _half_waves(shape[sides[place], 1]) if place in sides else 0
+    place, lowest = _place(rope, motion, x), int(np.argmax(x))
+    side = slice(0, lowest) if place == "car" else slice(lowest, n)
+    waves = 0 if place == "sheave" else _half_waves(shape[side, 1])
     return Mode(2.0 * pi / square**0.5, place, waves, shape)
 
 
@@ -95,8 +98,12 @@ def _place(rope: CompensationRope, motion: Floats, x: Floats) -> str:
     node, sheave, lowest = rope.model.rope.mass_per_length * rope.element, rope.model.sheave, int(np.argmax(x))
     across = node * motion[1, :-1] ** 2
     along = node * (motion[0, :-1] ** 2).sum() + sheave.mass * motion[0, -1] ** 2 + sheave.inertia * motion[1, -1] ** 2
-    energies = {"car": across[:lowest].sum(), "counterweight": across[lowest:].sum(), "sheave": along}
-    return max(energies, key=lambda place: float(energies[place]))
+    car, other = float(across[:lowest].sum()), float(across[lowest:].sum())
+    if along > max(car, other):
+        return "sheave"
+    if min(car, other) > SHARED * max(car, other):
+        return "both"
+    return "car" if car > other else "counterweight"
 
 
 def _half_waves(values: Floats) -> int:

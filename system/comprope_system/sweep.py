@@ -65,18 +65,22 @@ def values(outcomes: Sequence[Outcome]) -> list[Any]:
 
 
 def key_of(task: Task, case: Case) -> str:
-    """The key of a case's result: a hash of the function's name, the case, and this program's source."""
-    text = json.dumps([task.__module__, task.__qualname__, case, _source()], sort_keys=True)
+    """The key of a case's result: a hash of the function's name and module, the case, and the source of the models.
+
+    A case must therefore hold all that its result depends on: a model as a table, not the name of its file.
+    """
+    text = json.dumps([task.__qualname__, _source(task.__module__), case], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 
 @cache
-def _source() -> str:
-    """A hash of the source of the models and of what runs them: results of other versions must not be taken."""
-    digest = hashlib.sha256()
-    for folder in (Path(comprope.__file__).parent, Path(__file__).parent / "studies", Path(__file__).parent / "verification"):
-        for path in sorted(folder.rglob("*.py")):
-            digest.update(path.read_bytes())
+def _source(module: str) -> str:
+    """A hash of the source of the models and of what runs them: results of another version must not be taken."""
+    folder = Path(comprope.__file__).parent
+    paths = [*sorted(folder.rglob("*.py")), Path(__file__).with_name("ride.py"), Path(sys.modules[module].__file__ or "")]
+    digest = hashlib.sha256(module.encode())
+    for path in paths:
+        digest.update(path.read_bytes())
     return digest.hexdigest()
 
 

@@ -86,7 +86,7 @@ class Bundle:
     @property
     def digest(self) -> str:
         """The first eight digits of the hash of all files."""
-        return _digest(self.files)[:8]
+        return digest(self.files)[:8]
 
     @property
     def needs(self) -> str:
@@ -128,10 +128,10 @@ def build(
     content = _packed(interface.name, bundle, origin)
     content |= _documentation(interface, origin, bundle.needs)
     xml = content.pop(DESCRIPTION)
-    guid = str(uuid.UUID(_digest(content | {DESCRIPTION: completed(xml, interface, origin.version, "")})[:32]))
+    guid = str(uuid.UUID(digest(content | {DESCRIPTION: completed(xml, interface, origin.version, "")})[:32]))
     content[DESCRIPTION] = completed(xml, interface, origin.version, guid)
     with whole_file(out / f"{interface.name}.fmu") as path:
-        path.write_bytes(_zipped(content))
+        path.write_bytes(zipped(content))
     return out / f"{interface.name}.fmu"
 
 
@@ -175,14 +175,15 @@ def _documentation(interface: ModelInterface, origin: Origin, needs: str) -> dic
     }
 
 
-def _digest(files: Mapping[str, bytes]) -> str:
+def digest(files: Mapping[str, bytes]) -> str:
+    """A hash of all files and their paths, in hexadecimal digits."""
     total = hashlib.sha256()
     for path in sorted(files):
         total.update(path.encode() + b"\0" + hashlib.sha256(files[path]).digest())
     return total.hexdigest()
 
 
-def _zipped(content: Mapping[str, bytes]) -> bytes:
+def zipped(content: Mapping[str, bytes]) -> bytes:
     """A ZIP file that depends on nothing but its content: sorted, one date, one set of permissions."""
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:

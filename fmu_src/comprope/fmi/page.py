@@ -9,13 +9,17 @@ from .engine import ModelInterface, Variable
 _PAGE = Path(__file__).with_name("page.html")
 
 
-def page(interface: ModelInterface, version: str, python: str, needs: str) -> str:
-    """The HTML page of a model's FMU; `python` is the oldest that runs it, `needs` the packages it must have."""
+def page(interface: ModelInterface, version: str, python: str = "", needs: str = "", systems: str = "") -> str:
+    """The HTML page of a model's FMU.
+
+    `python` is the oldest that runs it and `needs` the packages it must have; without them, `systems` are
+    those that it has binaries for.
+    """
     environment = Environment(autoescape=True, trim_blocks=True, keep_trailing_newline=True)
     environment.filters["range"] = _range
     tables = [(role, found) for role in ("input", "output", "parameter") if (found := interface.of_role(role))]
     return environment.from_string(_PAGE.read_text("utf-8")).render(
-        model=interface, version=version, python=python, needs=needs, tables=tables
+        model=interface, version=version, python=python, needs=needs, systems=systems, tables=tables
     )
 
 

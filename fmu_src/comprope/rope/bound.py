@@ -7,39 +7,45 @@ import numpy as np
 
 from . import band, work, zone
 from .compose import compiled
+from .display import SHOWN
 from .effects.base import REGISTRY
 from .ends import PATH, PATHS
 from .slots import DECLARED, MU, slot
+from .standing import INPUTS
 from .state import Array, State, empty
+from .words import TOLD
 
 Call = Callable[..., Any]
 
 
 class Bound:
-    """Memory and kernels of one rope of n nodes with parameters p.
+    """Memory and kernels of one rope of n nodes with parameters p and sensors at `spots` (see `display`).
 
-    `state` is the accepted state; `path`, `f`, `w`, `touch`, `seen` and `P` are what calls read or
+    `state` is the accepted state; `u`, `path`, `f`, `w`, `touch`, `seen`, `told` and `y` are what calls read or
     leave. Each kernel is an attribute, to be called with its scalars by name.
     """
 
-    def __init__(self, n: int, p: Array) -> None:
+    def __init__(self, n: int, p: Array, spots: Array | None = None) -> None:
         effects, states = len(REGISTRY), sum(one.states for one in REGISTRY.values())
         self.state, trial = empty(n, states, effects), empty(n, states, effects)
         m, s = n + 1, self.state
         sizes = {"w": work.SECTIONS * m, "A": work.BAND * m, "L": band.FACTOR * m, "B": (zone.ROW + 2) * 2 * m + 4}
-        sizes |= {"Z": work.CONTACT * m + 4, "r": 2 * m, "touch": work.TOUCH, "power": effects + 1, "path": PATHS * PATH, "seen": 2}
+        sizes |= {"Z": work.CONTACT * m + 4, "r": 2 * m, "touch": work.TOUCH, "power": effects + 1, "path": PATHS * PATH, "seen": 2, "u": INPUTS, "told": TOLD}
         arrays = {name: np.zeros(size) for name, size in sizes.items()} | {"p": p, "f": trial.f, "h1": trial.history, "P": trial.powers}
-        kept = {"h0": s.history, "P0": s.powers, "E": s.energy, "start": s.start, "count": s.count}
+        arrays |= {"smooth": without_friction(p), "spots": np.zeros(1) if spots is None else spots}
+        arrays |= {"y": np.zeros(arrays["spots"].size + len(SHOWN))}
+        kept = {"h0": s.history, "P0": s.powers, "E": s.energy, "start": s.start, "count": s.count, "time": s.time}
         before = {"q0": s.q, "v0": s.v, "a0": s.a, "f0": s.f}
         self.moving = arrays | kept | before | {"q": trial.q, "v": trial.v, "a": trial.a}
         self.standing = arrays | kept | {"q": s.q, "v": s.v, "a": s.a}
-        self.path, self.f, self.w, self.touch, self.seen, self.P = (arrays[name] for name in ("path", "f", "w", "touch", "seen", "P"))
+        self.path, self.f, self.w, self.touch = (arrays[name] for name in ("path", "f", "w", "touch"))
+        self.u, self.seen, self.told, self.y = (arrays[name] for name in ("u", "seen", "told", "y"))
         self.scalars = {"n": n, "effects": effects, "state_size": states * m}
-        self.advance = self._bind("advance", self.moving)
-        self.hang = self._bind("hang", self.standing | {"p": without_friction(p)})
-        self.open_ledger = self._bind("open_ledger", self.standing | {"P": s.powers})
-        self.evaluate, self.place, self.begin, self.hold, self.sight, self.side_maximum = (
-            self._bind(name, self.standing) for name in ("evaluate", "place", "begin", "hold", "sight", "side_maximum")
+        self.reach, self.settle, self.travel, self.show, self.residual = (
+            self._bind(name, self.moving) for name in ("reach", "settle", "travel", "show", "residual")
+        )
+        self.evaluate, self.place, self.sight, self.side_maximum = (
+            self._bind(name, self.standing) for name in ("evaluate", "place", "sight", "side_maximum")
         )
 
     def _bind(self, name: str, arrays: dict[str, Array]) -> Call:

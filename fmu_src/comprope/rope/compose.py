@@ -18,11 +18,17 @@ from typing import Any
 
 import numba
 
-from . import band, contact, dynamics, elastica, ends, hooks, jit, ledger, march, newmark, sensors, slots, statics, work, zone
+from . import (
+    band, contact, display, dynamics, elastica, ends, following, glance, hooks, jit, lanes, ledger, march, newmark, sensors, slope, slots,
+    standing, statics, tangent, travel, words, work, zone,
+)  # fmt: skip
 from .effects import REGISTRY
 from .effects.base import Effect, Kernel
 
-MODULES = (work, jit, hooks, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics, sensors)
+MODULES = (
+    work, words, jit, hooks, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics, standing, following,
+    travel, sensors, display, lanes, slope, tangent, glance,
+)  # fmt: skip
 ARGUMENTS = {
     "moments": "n, p, w, h0, h1",
     "forces": "n, t, p, q, v, w, f",
@@ -32,15 +38,23 @@ ARGUMENTS = {
     "begin": "n, p, w, h0",
 }
 ENTRIES = {
-    "advance": (march.march, "number"),
-    "hang": (statics.rest, "number"),
+    "divide": (standing.divide, "number"),
+    "coarse": (standing.coarse, "integer"),
+    "reach": (standing.out_of_reach, "integer"),
+    "settle": (standing.settle, "integer"),
+    "begin_motion": (following.begin_motion, "nothing"),
+    "lead": (following.lead, "nothing"),
+    "travel": (travel.travel, "integer"),
+    "show": (display.show, "nothing"),
+    "residual": (display.residual_energy, "number"),
     "evaluate": (dynamics.forces, "nothing"),
     "place": (ends.place_ends, "nothing"),
-    "begin": (hooks.all_begin, "nothing"),
-    "open_ledger": (ledger.open_ledger, "nothing"),
-    "hold": (ledger.hold_forces, "nothing"),
     "sight": (sensors.sight, "nothing"),
     "side_maximum": (sensors.side_maximum, "nothing"),
+    "advance_tangent": (tangent.travel_tangent, "integer"),
+    "hang_again": (glance.hang_again, "number"),
+    "differentiate": (tangent.differentiate, "nothing"),
+    "look": (glance.look, "nothing"),
 }
 
 
@@ -125,7 +139,8 @@ def bound(names: Mapping[str, Any], module: str) -> dict[str, Any]:
         function = getattr(value, "py_func", value)
         compilable = value is not function or jit.PURE and isinstance(function, types.FunctionType)
         if compilable and function.__module__ not in (jit.__name__, module):
-            copy[key] = jit.kernel(types.FunctionType(function.__code__, copy, function.__name__))
+            compile_again = jit.contracted if getattr(value, "targetoptions", {}).get("fastmath") else jit.kernel
+            copy[key] = compile_again(types.FunctionType(function.__code__, copy, function.__name__))
     return copy
 
 

@@ -17,7 +17,7 @@ from math import sqrt
 
 from .hooks import all_groove
 from .jit import kernel
-from .slots import ELEMENT, K, MU, R, V0, C
+from .slots import ELEMENT, MU, V0, C, K, R
 from .work import COLUMNS, CONTACT, ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, LAST, NORMAL_LOSS, ROWS, TOUCH
 
 FADE = 1e-4  # m, penetration over which contact damping fades in
@@ -143,7 +143,9 @@ def touch_piece(n, p, q, v, f, touch, i, ex, ey, gx, gy, Z, ck, cc, tangent):
                 axx, axy, ayx, ayy = length * axx, length * axy, length * ayx, length * ayy
                 drive = -cc * length * P * grip_slip * rho
                 scatter(n, i, na, nb, nc, Z, axx, axy, ayx, ayy, gx, gy, -drive * ny, drive * nx)
-                turn_rows(n, i, na, nb, nc, Z, axx, axy, ayx, ayy, gx, gy, -drive * ny, drive * nx, gx + dy, gy - dx, ck * hx, ck * hy)
+                turn_rows(
+                    n, i, na, nb, nc, Z, axx, axy, ayx, ayy, gx, gy, -drive * ny, drive * nx, gx + dy, gy - dx, ck * hx, ck * hy
+                )
     add_to_nodes(n, f, touch, i, ax, ay, bx, by, cx, cy, turn)
 
 

@@ -107,15 +107,7 @@ class RopeEngine:
 
     def outputs(self) -> Mapping[str, Value]:
         """Every output by name, at the time reached."""
-        rope, values = self.rope, dict[str, Value]()
-        for k, sensor in enumerate(rope.model.sensors, 1):
-            values[f"lateral_displacement[{k}]"], values[f"in_view[{k}]"] = rope.lateral_displacement(sensor.side, sensor.height)
-        values.update(rope.outputs())
-        for end in _ENDS:
-            values[f"{end}_side_max_displacement"], values[f"{end}_side_max_height"] = rope.maximum(end)
-        values["energy_residual"] = rope.energy_residual
-        values["newton_iterations"], values["halvings"] = rope.count["newton"], rope.count["halved"]
-        return values
+        return self.rope.displayed()
 
     def get_state(self) -> bytes:
         """Rope and memory of the inputs."""

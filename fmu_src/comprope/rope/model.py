@@ -1,24 +1,25 @@
 """The rope as an object: settle it, move its ends, read what a sensor sees."""
 
 from collections.abc import Mapping
-from math import ceil, pi
 from typing import Any
 
 import numpy as np
 
 from ..declare import quantities
-from ..errors import InputError, SimulationError
-from . import ledger, work
+from . import ledger
 from .bound import Bound
+from .compose import compiled
+from .display import SHOWN
 from .effects.base import REGISTRY
-from .ends import PATH, PATHS
-from .newmark import DEEPEST, HALVED, NEWTON, STEPS, WORST
+from .newmark import HALVED, NEWTON, STEPS
 from .parameters import Base
-from .slots import COMPONENTS, vector
+from .slots import COMPONENTS, ELEMENT, vector
+from .standing import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
 from .state import Array, State
+from .words import require_fine
 
 SIDES = {"car": -1, "counterweight": 1}
-FEWEST = 16  # elements
+MOTIONS = SHOWN.index("car_side_max_displacement")  # what `outputs` gives: all that stands before
 
 
 def values_of(model: Base) -> dict[str, float]:
@@ -38,10 +39,11 @@ class CompensationRope:
 
     def __init__(self, model: Base) -> None:
         self.model = model
-        self.n = max(round(model.rope_length / model.rope.element_length), FEWEST) + 1
-        self.element = model.rope_length / (self.n - 1)
-        self.p = np.array(vector(values_of(model) | {"derived.element": self.element}))
-        self._do = Bound(self.n, self.p)
+        self.p = np.array(vector(values_of(model)))
+        self.n = int(compiled()["divide"].bind(p=self.p)())
+        self.element = float(self.p[ELEMENT])
+        spots = [(sensor.height, sensor.side == "counterweight") for sensor in model.sensors]
+        self._do = Bound(self.n, self.p, np.array(spots, float).ravel())
 
     @property
     def state(self) -> State:
@@ -57,45 +59,14 @@ class CompensationRope:
         reach, SimulationError when no shape at rest is found.
         """
         self.check_reach(car, counterweight, time)
-        s = self._do.renew(time)
-        s.q[:] = self._guess(car, counterweight)
-        self._do.path[:] = still(car, counterweight, outward, self.model.sheave.radius)
-        self._do.place(t=time, dt=1.0, s=0.0)
-        s.v[:] = 0.0
-        s.a[:] = 0.0
-        if self._do.hang(element=self.element) < 0.0:
-            raise SimulationError(
-                f"no shape at rest was found with car end at {car:g} m, counterweight end at {counterweight:g} m "
-                f"and sheave.mass = {self.model.sheave.mass:g} kg"
-            )
-        self._evaluate()
-        self._do.begin()
-        self._evaluate()
-        s.f[:] = self._do.f
-        self._do.open_ledger()
+        self._do.u[[CAR_OUT, COUNTERWEIGHT_OUT]] = outward
+        self._do.renew(time)
+        require_fine(self._do.settle(t=time), self._do.told)
 
     def check_reach(self, car: float, counterweight: float, time: float) -> None:
         """Refuse ends [m] between which the rope cannot hang; raises InputError."""
-        m = self.model
-        lowest = 0.5 * (car + counterweight - (m.rope_length - pi * m.sheave.radius))
-        if min(car, counterweight) - lowest < m.sheave.radius:
-            raise InputError(
-                f"car_position = {car:g} m with counterweight_position = {counterweight:g} m at t = {time:g} s: the rope of "
-                f"{m.rope_length:g} m would hang the axle at {lowest:g} m; both ends at least sheave.radius = "
-                f"{m.sheave.radius:g} m above it are accepted"
-            )
-
-    def _guess(self, car: float, counterweight: float) -> Array:
-        """Straight sides and a half circle that hold the natural length."""
-        n, R = self.n, self.model.sheave.radius
-        axle = 0.5 * (self.model.rope_length - pi * R - car - counterweight)
-        s = np.arange(n) * self.element
-        left = car + axle
-        angle = np.clip((s - left) / R, 0.0, pi)
-        x = np.where(s < left, s - car, axle + R * np.sin(angle))
-        right = s > left + pi * R
-        x[right] = axle - (s[right] - left - pi * R)
-        return np.concatenate([x, [axle], -R * np.cos(angle), [0.0]])
+        self._do.u[[CAR, COUNTERWEIGHT]] = car, counterweight
+        require_fine(self._do.reach(t=time), self._do.told)
 
     # -- in motion -------------------------------------------------------------------------------
 
@@ -105,25 +76,8 @@ class CompensationRope:
         Raises SimulationError where a time step could not be saved by halving it; the rope then stands
         at the last accepted one.
         """
-        time = float(self.state.time[0])
-        steps = max(1, ceil(dt / self.model.solver.step * (1.0 - 1e-9)))
         self._do.path[:] = path
-        reached = self._do.advance(t0=time, dt=dt, steps=steps)
-        if reached < 1.0:
-            raise SimulationError(self._where(time + reached * dt, dt / steps))
-        self.state.time[0] = time + dt
-
-    def _where(self, time: float, step: float) -> str:
-        worst = int(self.state.count[WORST]) % (self.n + 1)
-        place = "the sheave" if worst == self.n else f"{worst * self.element:.2f} m along the rope from the car"
-        return (
-            f"the time step at t = {time:.6f} s did not converge even when halved to {step / 2**DEEPEST:.1e} s; "
-            f"worst at {place}, height {-self.state.q[worst]:.3f} m"
-        )
-
-    def _evaluate(self) -> None:
-        """Forces and workspace at the present state."""
-        self._do.evaluate(t=float(self.state.time[0]), ck=0.0, cc=0.0, tangent=False)
+        require_fine(self._do.travel(dt=dt), self._do.told)
 
     # -- what it shows ---------------------------------------------------------------------------
 
@@ -145,14 +99,15 @@ class CompensationRope:
 
     def outputs(self) -> Mapping[str, float]:
         """Forces and motions of sheave and ends, in SI units, up positive."""
-        self._evaluate()
-        self._do.hold()
-        return {
-            "sheave_force": -float(self._do.touch[work.FORCE_X]),
-            **self.sheave(),
-            "car_end_tension": -float(self._do.P[0]),
-            "counterweight_end_tension": -float(self._do.P[2]),
-        }
+        self._do.show(m=0)
+        return dict(zip(SHOWN[:MOTIONS], self._do.y.tolist(), strict=False))
+
+    def displayed(self) -> dict[str, float]:
+        """Everything that `display` shows, by the names of the FMU's outputs."""
+        sensors = len(self.model.sensors)
+        self._do.show(m=sensors)
+        names = [f"{name}[{k}]" for k in range(1, sensors + 1) for name in ("lateral_displacement", "in_view")]
+        return dict(zip([*names, *SHOWN], self._do.y.tolist(), strict=True))
 
     def sheave(self) -> dict[str, float]:
         """Motion of the sheave, in SI units, up positive; the angle is positive while the car goes up."""
@@ -172,18 +127,9 @@ class CompensationRope:
     @property
     def energy_residual(self) -> float:
         """Stored energy less its start, less work put in, plus losses [J]; zero for an exact run."""
-        e, stored, spent = self.state.energy, len(ledger.STORED), len(ledger.SPENT)
-        losses = e[ledger.LOSSES : ledger.LOSSES + spent].sum()
-        return float(e[:stored].sum() - self.state.start[0] - e[ledger.ENDS_WORK] + losses - e[ledger.EFFECTS :].sum())
+        return float(self._do.residual())
 
     @property
     def count(self) -> dict[str, int]:
         """Time steps, Newton iterations and halvings so far."""
         return {name: int(self.state.count[k]) for name, k in (("steps", STEPS), ("newton", NEWTON), ("halved", HALVED))}
-
-
-def still(car: float, counterweight: float, outward: tuple[float, float], radius: float) -> Array:
-    """A path on which the ends stay where they are."""
-    path = np.zeros((PATHS, PATH))
-    path[:, 0] = path[:, 3] = (-car, -radius - outward[0], -counterweight, radius + outward[1])
-    return path.ravel()

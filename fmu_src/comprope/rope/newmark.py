@@ -72,7 +72,10 @@ def correct(n, p, h, r, q, v, a, count):
 
 @kernel
 def renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch):
-    """Assemble and factor the tangent of the last evaluation of the forces; r is carried to the zone."""
+    """Assemble and factor the tangent of the last evaluation of the forces; r is carried to the zone.
+
+    The sheave's column of the factor keeps which nodes the zone begins and ends with.
+    """
     alpha = p[ALPHA]
     ck = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h
     cc = (1.0 - alpha) * (0.5 + alpha) * h
@@ -81,6 +84,7 @@ def renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch):
     factor(n, A, L, r, first, last)
     fill(n, A, Z, B, first, last)
     factor_zone(2 * (last - first + 1), B)
+    L[n], L[2 * n + 1] = first, last
 
 
 @kernel

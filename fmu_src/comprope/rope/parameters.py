@@ -26,8 +26,12 @@ class Rope(Component):
     bending_stiffness: float = quantity("N.m2", "bending stiffness EI", 0.0, 2000.0, nominal=20.0)
     axial_damping: float = quantity("N.s", "axial force per strain rate", 0.0, 1e6, nominal=2e3)
     bending_damping: float = quantity("N.m2.s", "bending moment per curvature rate", 0.0, 100.0, nominal=0.1)
-    external_damping: float = quantity("N.s/m2", "drag force per length and velocity, all directions", 0.0, 100.0, default=0.0, nominal=0.1)
-    element_length: float = quantity("m", "length of one element; adjusted so that whole elements give the rope's length", 0.005, 1.0, default=0.05)
+    external_damping: float = quantity(
+        "N.s/m2", "drag force per length and velocity, all directions", 0.0, 100.0, default=0.0, nominal=0.1
+    )
+    element_length: float = quantity(
+        "m", "length of one element; adjusted so that whole elements give the rope's length", 0.005, 1.0, default=0.05
+    )
 
 
 class Sheave(Component):
@@ -44,14 +48,18 @@ class Contact(Component):
     stiffness: float = quantity("N/m2", "normal force per length and penetration", 1e4, 1e10, nominal=1.2e7)
     damping: float = quantity("N.s/m2", "normal force per length and penetration rate", 0.0, 1e7, nominal=8e3)
     friction_coefficient: float = quantity("1", "Coulomb friction of rope on groove", 0.0, 2.0, nominal=0.3)
-    slip_velocity: float = quantity("m/s", "slip velocity at which friction reaches 71 % of Coulomb's (regularisation)", 1e-4, 1.0, nominal=0.02)
+    slip_velocity: float = quantity(
+        "m/s", "slip velocity at which friction reaches 71 % of Coulomb's (regularisation)", 1e-4, 1.0, nominal=0.02
+    )
 
 
 class Solver(Component):
     """Time integration; the defaults suit whole trips."""
 
     step: float = quantity("s", "largest time step", 1e-5, 0.02, default=DEFAULT_STEP)
-    numerical_damping: float = quantity("1", "0 is the paper's Newmark-beta; above, high-frequency ringing is damped (HHT alpha)", 0.0, 1.0 / 3.0, default=0.15)
+    numerical_damping: float = quantity(
+        "1", "0 is the paper's Newmark-beta; above, high-frequency ringing is damped (HHT alpha)", 0.0, 1.0 / 3.0, default=0.15
+    )
 
 
 class Sensor(Component):

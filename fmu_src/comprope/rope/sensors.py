@@ -5,7 +5,7 @@ from .jit import kernel
 
 @kernel
 def smooth(values, base, i, s):
-    """Value at fraction s between nodes i and i + 1 of the cubic through four nodes (Catmull and Rom)."""
+    """Value at fraction s between nodes i and i + 1 of the smooth cubic between them (Catmull and Rom): exact for parabolas."""
     a, b, c, d = values[base + i - 1], values[base + i], values[base + i + 1], values[base + i + 2]
     return b + 0.5 * s * (c - a + s * (2.0 * a - 5.0 * b + 4.0 * c - d + s * (3.0 * (b - c) + d - a)))
 

@@ -154,7 +154,9 @@ def _channel_problems(path: Path, described: CampaignFile, model: RopeModel | No
         if one.unit not in UNITS[one.quantity]:
             found.append(f'{where}.unit = "{one.unit}": for {one.quantity} {", ".join(UNITS[one.quantity])} are accepted')
         if model and one.quantity == "lateral_displacement" and one.sensor not in sensors:
-            found.append(f'{where}.sensor = "{one.sensor}": a sensor of the model is accepted: {", ".join(sensors) or "it has none"}')
+            found.append(
+                f'{where}.sensor = "{one.sensor}": a sensor of the model is accepted: {", ".join(sensors) or "it has none"}'
+            )
     return found
 
 
@@ -169,7 +171,8 @@ def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel | 
     usable = [one for one in described.channels if one.unit in UNITS[one.quantity]]
     values = {one.column: table[one.column].to_numpy(float) * one.scale for one in usable}
     time, car = table["time"].to_numpy(float), table["car_position"].to_numpy(float)
-    return Run(spec.file, spec.role, dict(spec.set), time, car, *trips, values)
+    trip, counterweight = trips
+    return Run(spec.file, spec.role, dict(spec.set), time, car, trip, counterweight, values)
 
 
 def _table(file: Path, described: CampaignFile) -> pd.DataFrame:

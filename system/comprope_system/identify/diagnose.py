@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from .campaign import Campaign
 from .errors_of import nrmse
-from .fit import Fitted, directions_of, refine
-from .hypotheses import NUISANCES, Hypothesis, hypotheses, of_instruments
+from .fit import Fitted, refine
+from .hypotheses import NUISANCES, Direction, Hypothesis, hypotheses, of_instruments, together
 from .linear import by_effect, by_plant, unit_points
 from .point import Point, Predictions, gathered, submit
 from .problem import Problem, pose, solve
@@ -31,6 +31,8 @@ PRICE = 1.5  # of the score, for each parameter of an effect
 UNEXPLAINED = 0.04  # of the misfit that is too much: what "none of the known effects" stands for
 ADEQUATE = 0.95  # misfit per datum below which there is nothing to explain
 REFINED = 4  # hypotheses that are refined on the full model
+SECOND = 0.7  # of the misfit that the best effect may leave if a second one is to be looked for
+PAIRS = 2  # second effects that are refined with the first
 ALIKE = 0.7  # cosine above which two effects look the same in these data
 
 
@@ -79,8 +81,37 @@ def diagnose(campaign: Campaign, executor: Executor, say: Say = lambda _: None, 
     none = refine(problem, None, np.zeros(len(NUISANCES)), origin, plant)
     say("every effect, linearised")
     screened = _screen(problem, campaign, origin, nominal, plant, none)
-    candidates = _refined(problem, origin, screened, plant, none, say)
-    return _judged(campaign, problem, nominal, none, candidates)
+    found = _refined(problem, origin, screened, plant, none, say)
+    judged = _judged(campaign, problem, nominal, none, found)
+    return _second_look(judged, found, origin, say) if judged.kind == "unknown_effect" else judged
+
+
+def _second_look(judged: Diagnosis, found: list["Trial"], origin: Point, say: Say) -> Diagnosis:
+    """No effect alone explains the data: add a second one to the best, and judge again with the pair among the rivals."""
+    best = min((one for one in found if one[2]), key=lambda one: one[1].misfit, default=None)
+    if best is None or best[1].misfit > SECOND * judged.none.misfit:
+        return judged
+    problem, first = judged.problem, best[1]
+    assert first.hypothesis is not None
+    say(f"{first.hypothesis.effect} and a second effect, linearised")
+    plant = by_plant(problem, first.point, problem.whitened(first.predictions))
+    own = by_effect(
+        problem, first.hypothesis, replace(origin, plant=first.point.plant), first.effect_coefficients, first.predictions
+    )
+    screened = _screen(problem, judged.campaign, first.point, first.predictions, np.hstack([plant, own]), first)
+    pairs = [_pair(problem, origin, first, one, plant, say) for one in screened[:PAIRS]]
+    return _judged(judged.campaign, problem, judged.nominal, judged.none, [*found, min(pairs, key=lambda one: one[1].misfit)])
+
+
+def _pair(problem: Problem, origin: Point, first: Fitted, second: "Screened", plant: Floats, say: Say) -> "Trial":
+    """Both effects refined together on the full model."""
+    assert first.hypothesis is not None
+    both = together(first.hypothesis, second.hypothesis)
+    say(f"{both.effect}, on the full model")
+    start = np.concatenate([first.coefficients, np.zeros(len(second.hypothesis.directions))])
+    start[:] += second.start
+    fitted = refine(problem, both, start, origin, plant)
+    return replace(second, hypothesis=both), fitted, True
 
 
 @dataclass(frozen=True)
@@ -95,11 +126,18 @@ class Screened:
     alternatives: int
 
 
-def _screen(problem: Problem, campaign: Campaign, origin: Point, nominal: Predictions, plant: Floats, none: Fitted) -> list[Screened]:
+Trial = tuple[Screened, Fitted, bool]
+
+
+def _screen(
+    problem: Problem, campaign: Campaign, origin: Point, nominal: Predictions, plant: Floats, none: Fitted
+) -> list[Screened]:
     """Every effect's best alternative, most promising first."""
     y = problem.whitened(nominal)
     found = hypotheses(frequencies(problem, none.predictions))
-    columns = _effect_columns(problem, origin, nominal, y, found) | _instrument_columns(problem, nominal, of_instruments(campaign.channels))
+    columns = _effect_columns(problem, origin, nominal, y, found) | _instrument_columns(
+        problem, nominal, of_instruments(campaign.channels)
+    )
     present = {key.split(".")[1] for key in origin.effects}
     looks = [_look(problem, one, y, plant, by, columns) for one, by in columns.items() if one.effect not in present]
     best: dict[str, Screened] = {}
@@ -108,7 +146,9 @@ def _screen(problem: Problem, campaign: Campaign, origin: Point, nominal: Predic
     return list(best.values())
 
 
-def _effect_columns(problem: Problem, origin: Point, nominal: Predictions, y: Floats, found: Sequence[Hypothesis]) -> dict[Hypothesis, Floats]:
+def _effect_columns(
+    problem: Problem, origin: Point, nominal: Predictions, y: Floats, found: Sequence[Hypothesis]
+) -> dict[Hypothesis, Floats]:
     """Derivatives (N, directions) of every hypothesis, all replays side by side."""
     points = [point for one in found for point in unit_points(origin, one)]
     moved = iter(problem.predictions(*points))
@@ -120,16 +160,18 @@ def _instrument_columns(problem: Problem, nominal: Predictions, found: Sequence[
 
 
 def _look(problem: Problem, one: Hypothesis, y: Floats, plant: Floats, by: Floats, among: dict[Hypothesis, Floats]) -> Screened:
-    solution = solve(problem.data - y, np.hstack([plant, by]), directions_of(one))
-    weights = np.vstack([plant, np.diag([1.0 / p.prior for p in NUISANCES])])
-    padded = np.vstack([by, np.zeros((len(NUISANCES), by.shape[1]))])
+    # Columns beyond the plant's belong to effects that are there already.
+    beside = [*NUISANCES, *(Direction("present", {}, 3.0) for _ in range(plant.shape[1] - len(NUISANCES)))]
+    solution = solve(problem.data - y, np.hstack([plant, by]), [*beside, *one.directions])
+    weights = np.vstack([plant, np.diag([1.0 / p.prior for p in beside])])
+    padded = np.vstack([by, np.zeros((len(beside), by.shape[1]))])
     sideways = padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0]
-    visible = float(np.linalg.norm(sideways) / max(np.linalg.norm(by), 1e-300))
+    visible = float(np.linalg.norm(sideways)) / max(float(np.linalg.norm(by)), 1e-300)
     same = sum(other.effect == one.effect for other in among)
     return Screened(one, solution.coefficients, solution.misfit, sideways[: len(by)], visible, same)
 
 
-def _refined(problem: Problem, origin: Point, screened: list[Screened], plant: Floats, none: Fitted, say: Say) -> list[tuple[Screened, Fitted, bool]]:
+def _refined(problem: Problem, origin: Point, screened: list[Screened], plant: Floats, none: Fitted, say: Say) -> list[Trial]:
     """Every effect fitted: the promising ones on the full model, the others as the linear look has them.
 
     Promising is what the linear look gives at least a tenth of what its best gives.
@@ -144,7 +186,9 @@ def _refined(problem: Problem, origin: Point, screened: list[Screened], plant: F
             fitted = refine(problem, one.hypothesis, one.start, origin, plant)
         else:
             share = one.misfit / worst
-            fitted = replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=none.misfit * share, cost=none.cost * share)
+            fitted = replace(
+                none, hypothesis=one.hypothesis, coefficients=one.start, misfit=none.misfit * share, cost=none.cost * share
+            )
         found.append((one, fitted, closer))
     return found
 
@@ -154,7 +198,7 @@ def score(misfit: float, count: int, price: float = 0.0) -> float:
     return -0.5 * LOOKS * log(max(misfit / count, ADEQUATE)) - price
 
 
-def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fitted, found: list[tuple[Screened, Fitted, bool]]) -> Diagnosis:
+def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fitted, found: list[Trial]) -> Diagnosis:
     count = len(problem.data)
     excess = max(none.misfit / count - 1.0, 0.0)
     scores = {"adequate": score(none.misfit, count), "unknown": score(count * (1.0 + UNEXPLAINED * excess), count, 6.0)}
@@ -165,7 +209,9 @@ def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fi
     weights = {name: float(np.exp(value - top)) for name, value in scores.items()}
     probabilities = {name: weight / sum(weights.values()) for name, weight in weights.items()}
     ranking = tuple(
-        Candidate(fitted, scores[one.hypothesis.effect], probabilities[one.hypothesis.effect], closer, one.visible, _least(one, count))
+        Candidate(
+            fitted, scores[one.hypothesis.effect], probabilities[one.hypothesis.effect], closer, one.visible, _least(one, count)
+        )
         for one, fitted, closer in sorted(found, key=lambda item: -scores[item[0].hypothesis.effect])
     )
     verdict, kind = _verdict(probabilities, ranking)
@@ -176,7 +222,8 @@ def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) ->
     winner = max(probabilities, key=lambda name: probabilities[name])
     if winner in ("adequate", "unknown"):
         return None, "adequate" if winner == "adequate" else "unknown_effect"
-    top = ranking[0].hypothesis
+    # Of several effects at once the first explains most.
+    top = (ranking[0].hypothesis.parts or (ranking[0].hypothesis,))[0]
     return top.effect, "instrument" if top.is_instrument else "known_effect"
 
 
@@ -191,7 +238,7 @@ def _least(one: Screened, count: int) -> dict[str, float]:
     }
 
 
-def _alike(found: list[tuple[Screened, Fitted, bool]]) -> tuple[tuple[str, str], ...]:
+def _alike(found: list[Trial]) -> tuple[tuple[str, str], ...]:
     """Pairs of effects whose traces in these data, free of the plant's, point the same way."""
     pairs = []
     for k, (a, _, _) in enumerate(found):
@@ -212,4 +259,3 @@ def errors(campaign: Campaign, fitted: Fitted, executor: Executor) -> tuple[floa
     validate = campaign.of_role("validate")
     held = gathered(validate, submit(campaign, validate, fitted.point, executor))
     return nrmse(campaign, campaign.of_role("fit"), fitted.predictions), nrmse(campaign, validate, held)
-

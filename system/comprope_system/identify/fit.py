@@ -52,7 +52,9 @@ def point_of(hypothesis: Hypothesis | None, coefficients: Sequence[float], base:
     return with_effect(plant, hypothesis, [float(c) for c in coefficients[len(names) :]]) if hypothesis else plant
 
 
-def refine(problem: Problem, hypothesis: Hypothesis | None, start: Floats, base: Point, plant: Floats, rounds: int = ROUNDS) -> Fitted:
+def refine(
+    problem: Problem, hypothesis: Hypothesis | None, start: Floats, base: Point, plant: Floats, rounds: int = ROUNDS
+) -> Fitted:
     """The best point near `start`; `plant` (N, nuisances) are derivatives that may have been taken elsewhere.
 
     They are taken anew where they no longer lead downhill.

@@ -50,7 +50,8 @@ NUISANCES = (
 class Hypothesis:
     """One way in which an effect may act: its directions, and what stays fixed with it.
 
-    `polar` is (amplitude, phase) where the two directions are its cosine and sine.
+    `polar` is (amplitude, phase) where the two directions are its cosine and sine; `base` is the value without
+    the effect; `parts` are the hypotheses of several effects at once, whose directions stand one after the other.
     """
 
     effect: str
@@ -58,6 +59,15 @@ class Hypothesis:
     fixed: Mapping[str, float] = field(default_factory=dict)
     polar: tuple[str, str] | None = None
     base: float = 0.0
+    parts: tuple["Hypothesis", ...] = ()
+
+    def shares(self, coefficients: list[float]) -> list[tuple["Hypothesis", list[float]]]:
+        """Each effect with its own coefficients."""
+        found, at = [], 0
+        for part in self.parts or (self,):
+            found.append((part, coefficients[at : at + len(part.directions)]))
+            at += len(part.directions)
+        return found
 
     @property
     def is_instrument(self) -> bool:
@@ -66,6 +76,8 @@ class Hypothesis:
 
     def parameters(self, coefficients: list[float]) -> dict[str, float]:
         """Values of model keys for coefficients of the directions."""
+        if self.parts:
+            return {key: value for part, own in self.shares(coefficients) for key, value in part.parameters(own).items()}
         values: dict[str, float] = {}
         for direction, coefficient in zip(self.directions, coefficients, strict=True):
             for key, amount in direction.changes.items():
@@ -95,6 +107,13 @@ def of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypo
         directions = tuple(_direction(effect, one, chosen.get(one.name)) for one in amplitudes)
         found.append(_assembled(effect, directions, others | dict(effect.brings)))
     return found
+
+
+def together(first: Hypothesis, second: Hypothesis) -> Hypothesis:
+    """Both effects at once."""
+    parts = (*(first.parts or (first,)), *(second.parts or (second,)))
+    directions = tuple(direction for part in parts for direction in part.directions)
+    return Hypothesis(" + ".join(part.effect for part in parts), directions, parts=parts)
 
 
 def of_instruments(channels: Mapping[str, Channel]) -> list[Hypothesis]:
@@ -135,4 +154,3 @@ def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: d
         for word, angle in (("cosine", 0.0), ("sine", 0.5 * pi))
     )
     return Hypothesis(effect.name, pair, fixed, (amplitude, phase))
-

@@ -26,26 +26,32 @@ class Linear:
 def by_plant(problem: Problem, point: Point, y: Floats, names: Sequence[Direction] = NUISANCES) -> Floats:
     """Derivatives (N, nuisances) by the plant's coefficients at a point whose predictions are y."""
     steps = [RELATIVE if one.relative else ABSOLUTE for one in names]
-    moved = [replace(point, plant=dict(point.plant) | {one.name: point.plant.get(one.name, 0.0) + h}) for one, h in zip(names, steps, strict=True)]
+    moved = [
+        replace(point, plant=dict(point.plant) | {one.name: point.plant.get(one.name, 0.0) + h})
+        for one, h in zip(names, steps, strict=True)
+    ]
     found = problem.predictions(*moved)
     return np.column_stack([(problem.whitened(one) - y) / h for one, h in zip(found, steps, strict=True)])
 
 
 def by_effect(problem: Problem, hypothesis: Hypothesis, plant: Point, coefficients: Sequence[float], at: Predictions) -> Floats:
-    """Derivatives (N, directions) by an effect's coefficients; `at` are the predictions at these coefficients.
+    """Derivatives (N, directions) by the coefficients of an effect, or of several; `at` are the predictions there.
 
     From zero the step is the whole typical value, since some effects have no derivative there.
     """
-    if hypothesis.is_instrument:
-        return _by_instrument(problem, hypothesis, at)
-    y = problem.whitened(at)
-    steps = [_step(c, one) for c, one in zip(coefficients, hypothesis.directions, strict=True)]
-    moved = []
-    for k, h in enumerate(steps):
-        there = [c + (h if j == k else 0.0) for j, c in enumerate(coefficients)]
-        moved.append(with_effect(plant, hypothesis, there))
-    found = problem.predictions(*moved)
-    return np.column_stack([(problem.whitened(one) - y) / h for one, h in zip(found, steps, strict=True)])
+    y, own = problem.whitened(at), list(coefficients)
+    steps = [_step(c, one) for c, one in zip(own, hypothesis.directions, strict=True)]
+    faults = [part.is_instrument for part, _ in hypothesis.shares(own) for _ in part.directions]
+    physical = [k for k, fault in enumerate(faults) if not fault]
+    moved = problem.predictions(*(with_effect(plant, hypothesis, _moved(own, k, steps[k])) for k in physical))
+    columns = {k: (problem.whitened(one) - y) / steps[k] for k, one in zip(physical, moved, strict=True)}
+    columns |= {k: _by_instrument(problem, hypothesis.directions[k], at) for k, fault in enumerate(faults) if fault}
+    return np.column_stack([columns[k] for k in range(len(own))])
+
+
+def _moved(coefficients: list[float], place: int, step: float) -> list[float]:
+    """The coefficients with one of them moved."""
+    return [c + (step if k == place else 0.0) for k, c in enumerate(coefficients)]
 
 
 def _step(coefficient: float, direction: Direction) -> float:
@@ -65,14 +71,13 @@ def with_effect(point: Point, hypothesis: Hypothesis, coefficients: Sequence[flo
     return replace(point, effects=dict(point.effects) | hypothesis.parameters(list(coefficients)))
 
 
-def _by_instrument(problem: Problem, hypothesis: Hypothesis, at: Predictions) -> Floats:
-    """Derivative of one channel by its gain, offset or delay, from the predictions themselves."""
-    (direction,) = hypothesis.directions
+def _by_instrument(problem: Problem, direction: Direction, at: Predictions) -> Floats:
+    """Derivative (N,) of one channel by its gain, offset or delay, from the predictions themselves."""
     ((key, size),) = direction.changes.items()
-    column = key.rsplit(".", 1)[1]
+    _, effect, column = key.split(".", 2)
     moved = {}
     for run in problem.runs:
         value = at[run.file, column]
-        slope = {"sensor_gain": value, "sensor_offset": np.ones_like(value)}.get(hypothesis.effect)
+        slope = {"sensor_gain": value, "sensor_offset": np.ones_like(value)}.get(effect)
         moved[run.file, column] = size * (-np.gradient(value, run.time) if slope is None else slope)
-    return problem.column(moved)[:, None]
+    return problem.column(moved)

@@ -33,7 +33,9 @@ class Point:
         for one in NUISANCES:
             coefficient = self.plant.get(one.name, 0.0)
             if coefficient:
-                changed[one.name] = base[one.name] * (1.0 + coefficient) if one.relative else max(base[one.name] + coefficient, 0.0)
+                changed[one.name] = (
+                    base[one.name] * (1.0 + coefficient) if one.relative else max(base[one.name] + coefficient, 0.0)
+                )
         return changed
 
 

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 from comprope.rope.effects import RopeModel
 from comprope.rope.model import CompensationRope
 from comprope.rope.modelfile import with_changes
+from comprope.rope.parameters import Base
 
 from .campaign import Channel, Run
 
@@ -35,7 +36,7 @@ def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: fl
     grid = run.time[0] + GRID * np.arange(int(np.ceil((run.time[-1] - run.time[0]) / GRID)) + 2)
     seen = _drive(rope, run, grid, channels)
     values = {}
-    for column, channel in channels.items():
+    for column in channels:
         whole = CubicSpline(grid, seen[column][:, 0])(run.time)
         hidden = np.interp(run.time, grid, seen[column][:, 1]) < 1.0
         values[column] = np.where(hidden, np.nan, whole)
@@ -45,7 +46,9 @@ def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: fl
 
 def instrument(model: RopeModel, column: str, time: Floats, value: Floats) -> Floats:
     """What a channel's instrument makes of the true value: delayed, with its gain, from its offset."""
-    gain, offset, delay = ((getattr(model.effects, name) or {}).get(column) for name in ("sensor_gain", "sensor_offset", "sensor_delay"))
+    gain, offset, delay = (
+        (getattr(model.effects, name) or {}).get(column) for name in ("sensor_gain", "sensor_offset", "sensor_delay")
+    )
     late = np.interp(time - delay, time, value) if delay else value
     return (1.0 if gain is None else gain) * late + (offset or 0.0)
 
@@ -54,7 +57,9 @@ def referred(values: dict[str, Floats], run: Run, channels: Mapping[str, Channel
     """Values less their mean before the trip, where the channel counts from rest."""
     rest = run.rest
     return {
-        column: value - np.nanmean(value[rest]) if channels[column].reference == "rest" and np.isfinite(value[rest]).any() else value
+        column: value - np.nanmean(value[rest])
+        if channels[column].reference == "rest" and np.isfinite(value[rest]).any()
+        else value
         for column, value in values.items()
     }
 
@@ -78,7 +83,7 @@ def _drive(rope: CompensationRope, run: Run, grid: Floats, channels: Mapping[str
     return seen
 
 
-def _paths(model: RopeModel, run: Run, grid: Floats) -> Floats:
+def _paths(model: Base, run: Run, grid: Floats) -> Floats:
     """Position, velocity and acceleration of the four coordinates of the ends at the grid's times: (times, 4, 3)."""
     paths = np.zeros((len(grid), 4, 3))
     for k, trip in ((0, run.trip), (2, run.counterweight)):

@@ -6,7 +6,8 @@ from typing import Any
 
 from comprope.drive.trajectory import Trip
 from comprope.rope.effects import RopeModel
-from comprope.rope.modelfile import load, with_changes
+from comprope.rope.modelfile import as_table, load, validated, with_changes
+from comprope.rope.parameters import Base
 
 from ..presets import model_path
 from ..ride import trip_of
@@ -28,12 +29,28 @@ def building(name: str, changes: Mapping[str, Any] | None = None) -> RopeModel:
     return with_changes(_loaded(name), changes or {})
 
 
-def with_sheave(name: str, mass: float) -> dict[str, float]:
+def with_sheave(model: Base | str, mass: float) -> dict[str, float]:
     """Changes that give a building a sheave of another mass [kg], its inertia in proportion: the same disc, lighter."""
-    sheave = _loaded(name).sheave
+    sheave = (_loaded(model) if isinstance(model, str) else model).sheave
     return {"sheave.mass": mass, "sheave.inertia": sheave.inertia * mass / sheave.mass}
 
 
+def limits(name: str, distance: float) -> dict[str, float]:
+    """A trip up from the bottom landing over a distance [m] as a case has it; a model file runs as the 200 m building does."""
+    speed, acceleration, jerk = LIMITS.get(name, LIMITS[BUILDING])
+    return {"distance": distance, "speed": speed, "acceleration": acceleration, "jerk": jerk}
+
+
 def up(name: str, distance: float) -> Trip:
-    """The trip up from the bottom landing over a distance [m]; a model file runs as the 200 m building does."""
-    return trip_of(distance, *LIMITS.get(name, LIMITS[BUILDING]))
+    """That trip."""
+    return trip_of(**limits(name, distance))
+
+
+def table(name: str, changes: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """A building as a case has it: the whole model, so that a worker needs no file and a changed file is another case."""
+    return as_table(building(name, changes))
+
+
+def model_in(case: Mapping[str, Any], changes: Mapping[str, Any] | None = None) -> RopeModel:
+    """The model of a case, with some values changed."""
+    return with_changes(validated(case["model"], "case"), changes or {})

@@ -1,9 +1,12 @@
 """One look for the figures of studies and verification."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 FIRST, SECOND, THIRD, FOURTH, GREY = "#0b4f8a", "#d9772b", "#2a8c6e", "#8a3f8f", "#9aa5b1"
 COLOURS = (FIRST, SECOND, THIRD, FOURTH, "#b3361b", "#5b7fa6", "#b89b2e", GREY)
@@ -28,6 +31,14 @@ def label(axes: Axes, x: str, y: str, title: str = "") -> None:
         axes.set_title(title, loc="left", fontsize=10.5)
 
 
-def legend(axes: Axes, **options: object) -> None:
+def legend(axes: Axes, **options: Any) -> None:
     """The legend, without a frame."""
     axes.legend(frameon=False, fontsize=8.5, **options)
+
+
+def plain_log(*axes: Axis) -> None:
+    """Plain numbers 1, 2, 5, 10 … on logarithmic axes."""
+    for axis in axes:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())

@@ -1,10 +1,11 @@
 """What a study is: cases to run, a function that runs one, and what it makes of their results."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ..report.page import Block, Section, Table
+from ..report.finding import Finding, fact_table
+from ..report.page import Section
 from ..sweep import Case, Task
 
 AGREES, DIFFERS, PARTLY = "yes", "no", "partly"
@@ -17,24 +18,6 @@ class Ask:
     building: str = "building200"
     distance: float = 22.0
     limit: float = 0.005
-
-
-@dataclass(frozen=True)
-class Fact:
-    """Something the paper states, and what was obtained; `agrees` is "yes", "no" or "partly"."""
-
-    what: str
-    stated: str
-    obtained: str
-    agrees: str
-
-
-@dataclass(frozen=True)
-class Finding:
-    """The outcome of a study: facts side by side, then paragraphs, tables and pictures."""
-
-    facts: Sequence[Fact]
-    blocks: Sequence[Block]
 
 
 @dataclass(frozen=True)
@@ -54,8 +37,3 @@ class Study:
     def section(self, finding: Finding) -> Section:
         """The finding as a section of a page."""
         return Section(self.name, self.title, [fact_table(finding.facts), *finding.blocks], self.quote)
-
-
-def fact_table(facts: Sequence[Fact], caption: str = "") -> Table:
-    """Facts as a table."""
-    return Table(("", "stated", "obtained", "agrees"), [(one.what, one.stated, one.obtained, one.agrees) for one in facts], caption)

@@ -4,12 +4,15 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from comprope.rope.model import CompensationRope
+from comprope.rope.parameters import Base
 
-from ..ride import Floats, record, side_shape
+from ..hanging import side_string
+from ..ride import Floats, record, side_shape, trip_of
 from ..sweep import Case
-from .buildings import building, up
+from .buildings import limits, model_in, table
 
 AFTER = 20.0  # s watched after the trip: the rope's slowest period and more
 FRACTIONS = np.linspace(0.02, 0.98, 25)  # of the free length, from the axle to the end
@@ -18,6 +21,7 @@ MIDDLE = len(FRACTIONS) // 2
 # Measures, each one number [m] for one trip, in words.
 MEASURES = {
     "middle_after": "middle of the rope, half its swing after the trip",
+    "mode_after": "slowest swing of the side alone, half of it after the trip",
     "middle_rest": "middle of the rope, farthest from rest, trip included",
     "whole_after": "anywhere on the side, half the swing after the trip",
     "whole_rest": "anywhere on the side, farthest from rest, trip included",
@@ -31,12 +35,12 @@ MEASURES = {
 
 def swing_case(name: str, distance: float, changes: Mapping[str, Any] | None = None) -> Case:
     """A case for `swing`."""
-    return {"building": name, "distance": distance, "changes": dict(changes or {})}
+    return {"model": table(name, changes), "trip": limits(name, distance)}
 
 
 def swing(case: Case) -> dict[str, Any]:
     """Run a trip; its duration [s], every one of MEASURES [m], and half the swing after it by height [m]."""
-    model, trip = building(case["building"], case["changes"]), up(case["building"], case["distance"])
+    model, trip = model_in(case), trip_of(**case["trip"])
     low = 2.0 - model.shaft.pit
     heights = np.concatenate([[low, 0.5 * model.shaft.height], np.linspace(0.0, model.shaft.height, 41)])
 
@@ -51,8 +55,17 @@ def swing(case: Case) -> dict[str, Any]:
         "duration": trip.duration,
         "heights": heights[2:].tolist(),
         "by_height": np.where(np.isfinite(by_height), by_height, -1.0).tolist(),
+        "mode_after": float(half_swing((own[after] @ _slowest(model, trip.destination))[:, None])[0]),
         **_measures(own, fixed, car, after),
     }
+
+
+def _slowest(model: Base, car: float) -> Floats:
+    """Weights of displacements at FRACTIONS that give the size of the slowest swing: sin(pi t) over travel time t from 0 to 1."""
+    string = side_string(model, car)
+    share = string.share_at(FRACTIONS * string.length)
+    weights = np.sin(np.pi * share) * np.gradient(share)
+    return np.asarray(weights / (weights @ np.sin(np.pi * share)))
 
 
 def _along(rope: CompensationRope, side: str) -> Floats:
@@ -62,7 +75,7 @@ def _along(rope: CompensationRope, side: str) -> Floats:
     return side_shape(rope, side, axle + FRACTIONS * (end - axle))
 
 
-def _measures(own: Floats, fixed: Floats, car: Floats, after: Floats) -> dict[str, float]:
+def _measures(own: Floats, fixed: Floats, car: Floats, after: NDArray[np.bool_]) -> dict[str, float]:
     """MEASURES from displacements over time (times, places) along the side, at fixed heights and along the car's side."""
     return {
         "middle_after": float(half_swing(own[after])[MIDDLE]),

@@ -6,6 +6,7 @@ outward on both sides at a fraction of the car's velocity; it needs the drag coe
 """
 
 from math import copysign
+from typing import ClassVar
 
 from ...declare import quantity
 from ..jit import kernel
@@ -26,8 +27,8 @@ class ShaftAirflow(Effect):
     """Lateral air flow in the shaft, driven by the car."""
 
     name = "shaft_airflow"
-    probes = {"crossflow_ratio": (0.3, -0.3)}
-    brings = {"effects.air_drag.drag_coefficient": 1.1}
+    probes: ClassVar[dict[str, tuple[float, ...]]] = {"crossflow_ratio": (0.3, -0.3)}
+    brings: ClassVar[dict[str, float]] = {"effects.air_drag.drag_coefficient": 1.1}
     crossflow_ratio: float = quantity(
         "1", "outward lateral air velocity on both sides over the car's velocity (up positive)", -2.0, 2.0, nominal=0.3, off=0.0
     )

@@ -6,6 +6,7 @@ at the start.
 """
 
 from math import exp
+from typing import ClassVar
 
 from ...declare import quantity
 from ..jit import kernel
@@ -19,7 +20,7 @@ class BendingHysteresis(Effect):
 
     name = "bending_hysteresis"
     states = 2
-    probes = {"yield_curvature": (0.02, 0.1, 0.5, 2.0)}
+    probes: ClassVar[dict[str, tuple[float, ...]]] = {"yield_curvature": (0.02, 0.1, 0.5, 2.0)}
     friction_moment: float = quantity("N.m", "moment of full slip between the wires", 0.0, 500.0, nominal=1.0, off=0.0)
     yield_curvature: float = quantity("1/m", "curvature over which slip develops", 1e-4, 10.0, nominal=0.1, off=0.1)
 

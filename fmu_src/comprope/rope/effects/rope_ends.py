@@ -16,7 +16,9 @@ class BuildingSway(Effect):
 
     name = "building_sway"
     polar = ("amplitude", "phase")
-    amplitude: float = quantity("m", "amplitude at the top landing, towards the counterweight's side", 0.0, 5.0, nominal=0.05, off=0.0)
+    amplitude: float = quantity(
+        "m", "amplitude at the top landing, towards the counterweight's side", 0.0, 5.0, nominal=0.05, off=0.0
+    )
     frequency: float = quantity("Hz", "frequency", 0.001, 20.0, nominal=0.2, off=0.2)
     phase: float = quantity("rad", "phase at time zero, of a sine", -2 * pi, 2 * pi, default=0.0, nominal=1.0)
 
@@ -26,7 +28,9 @@ class AttachmentOffset(Effect):
 
     name = "attachment_offset"
     car: float = quantity("m", "outward offset of the end under the car", -0.5, 0.5, default=0.0, nominal=0.01)
-    counterweight: float = quantity("m", "outward offset of the end under the counterweight", -0.5, 0.5, default=0.0, nominal=0.01)
+    counterweight: float = quantity(
+        "m", "outward offset of the end under the counterweight", -0.5, 0.5, default=0.0, nominal=0.01
+    )
 
 
 register(BuildingSway)

@@ -15,7 +15,12 @@ class SheaveEccentricity(Effect):
     polar = ("eccentricity", "phase")
     eccentricity: float = quantity("m", "distance of the groove's centre from the axle", 0.0, 0.05, nominal=1e-3, off=0.0)
     phase: float = quantity(
-        "rad", "direction of that distance at the start, from straight down towards the car", -2 * pi, 2 * pi, default=0.0, nominal=1.0
+        "rad",
+        "direction of that distance at the start, from straight down towards the car",
+        -2 * pi,
+        2 * pi,
+        default=0.0,
+        nominal=1.0,
     )
 
 

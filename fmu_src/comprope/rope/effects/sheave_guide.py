@@ -4,6 +4,7 @@ Coulomb forces are regularised, F = F_c v / sqrt(v^2 + v_0^2), with v_0 well bel
 """
 
 from math import sqrt
+from typing import ClassVar
 
 from ...declare import quantity
 from ..jit import kernel
@@ -34,7 +35,7 @@ class SheaveDamper(Effect):
     """A tie-down damper on the sheave."""
 
     name = "sheave_damper"
-    probes = {"damping": (1e3, 1e4, 1e5)}
+    probes: ClassVar[dict[str, tuple[float, ...]]] = {"damping": (1e3, 1e4, 1e5)}
     damping: float = quantity("N.s/m", "force per vertical velocity of the sheave", 0.0, 1e7, nominal=1e4, off=0.0)
 
 

@@ -1,0 +1,27 @@
+/* What the face knows of the model: its variables. model.c, which holds them, is generated from their declarations. */
+#ifndef MODEL_H
+#define MODEL_H
+
+#include <stddef.h>
+
+enum kind { REAL, INTEGER, BOOLEAN, STRING };
+enum role { PARAMETER, INPUT, OUTPUT };
+
+/* One variable; its place in VARIABLES is its value reference. A bound that is not there is infinite. */
+typedef struct {
+    enum kind kind;
+    enum role role;
+    const char *name;     /* with its role, as in "parameter sheave.mass" */
+    double start, minimum, maximum;
+    const char *unit;     /* with a space before it, or empty */
+    const char *accepted; /* as in "0.1 to 20000 kg is accepted" */
+    const char *help;
+} Variable;
+
+extern const Variable VARIABLES[];
+extern const size_t VARIABLE_COUNT; /* parameters, then inputs, then outputs */
+extern const size_t OUTPUT_COUNT;
+extern const char MODEL_NAME[];
+extern const char MODEL_GUID[];
+
+#endif

@@ -1,0 +1,77 @@
+"""How the shape at rest and what sensors see answer the parameters: `statics` and `sensors`, differentiated."""
+
+from .dynamics import forces
+from .ends import place_ends
+from .hooks import all_begin
+from .jit import kernel
+from .sensors import crossing, smooth
+from .slots import ELEMENT
+from .statics import rest
+
+
+@kernel
+def hang_again(n, t, p1, smooth1, path1, q, v, a, w, f, touch, hi, hd, power, A, L, B, Z, r):
+    """Move q to rest with other parameters and ends than it was at; sets the history hi of a rope at rest there.
+
+    `smooth1` are the parameters p1 without friction and without effects that have a history. Returns the number of
+    iterations, or -1 where no shape at rest is found.
+    """
+    place_ends(n, t, p1, path1, 1.0, 0.0, q, v, a)
+    for i in range(2 * (n + 1)):
+        v[i] = 0.0
+    count = rest(n, smooth1, q, v, w, f, touch, hi, hd, power, A, L, B, Z, r, p1[ELEMENT])
+    forces(n, t, smooth1, q, v, w, f, touch, hi, hd, power, Z, 0.0, 0.0, False)
+    all_begin(n, p1, w, hi)
+    return count
+
+
+@kernel
+def seen_node(n, q, side, x):
+    """The lower node of the element that `sensors.sight` sees at depth x on a side; -1 - i where it shows node i instead."""
+    end = 0 if side < 0 else n - 1
+    if x < q[end]:
+        return -1 - end
+    i = end
+    while 0 <= i - side < n and q[i - side] < x:
+        i -= side
+        if q[i - side] < q[i] and q[i] < x:
+            return -1 - i
+    return i - 1 if side > 0 else i
+
+
+@kernel
+def smooth_slope(values, base, i, s):
+    """Derivative of `sensors.smooth` by s."""
+    a, b, c, d = values[base + i - 1], values[base + i], values[base + i + 1], values[base + i + 2]
+    return 0.5 * (c - a + s * (2.0 * (2.0 * a - 5.0 * b + 4.0 * c - d) + 3.0 * s * (3.0 * (b - c) + d - a)))
+
+
+@kernel
+def look_between(n, q, dq, i, x, b):
+    """Change of the lateral position seen at depth x between nodes i and i + 1, near the rope's end: on a straight line."""
+    m, length = n + 1, q[i + 1] - q[i]
+    s = (x - q[i]) / length
+    dx, dy = dq[b + i] + s * (dq[b + i + 1] - dq[b + i]), dq[b + m + i] + s * (dq[b + m + i + 1] - dq[b + m + i])
+    return dy - (q[m + i + 1] - q[m + i]) / length * dx
+
+
+@kernel
+def look(n, q0, dq, directions, sensors, sides, depths, glances):
+    """Set glances[j directions + k] to the derivative along direction k of the lateral position that sensor j sees.
+
+    A sensor at a fixed depth sees dy - (dy/dx) dx of the place on the rope that is before it.
+    """
+    m = n + 1
+    for j in range(sensors):
+        i, x = seen_node(n, q0, int(sides[j]), depths[j]), depths[j]
+        inner = 1 <= i <= n - 3
+        s = crossing(q0, i, x) if inner else 0.0
+        lean = smooth_slope(q0, m, i, s) / smooth_slope(q0, 0, i, s) if inner else 0.0
+        for k in range(directions):
+            b = 2 * m * k
+            if inner:
+                glances[j * directions + k] = smooth(dq, b + m, i, s) - lean * smooth(dq, b, i, s)
+            elif i >= 0:
+                glances[j * directions + k] = look_between(n, q0, dq, i, x, b)
+            else:
+                glances[j * directions + k] = dq[b + m - 1 - i]

@@ -1,0 +1,55 @@
+"""One communication step: how many time steps it takes, and what to tell if one of them is lost."""
+
+from math import ceil
+
+from .ends import PATH
+from .jit import kernel
+from .march import march
+from .newmark import DEEPEST, WORST
+from .slots import ELEMENT, slot
+from .words import FINE, LOST, LOST_AT_SHEAVE, TOO_LONG
+
+STEP = slot("solver.step")
+PASSED = 0.5  # of an element may run onto the sheave in one time step; at more, steps would be halved anyway
+MOST = 1e7  # time steps in one communication step: hours of computing, so it is a mistake
+
+
+@kernel
+def travel(
+    n, dt, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count, time,
+    state_size, effects, told,
+):  # fmt: skip
+    """Advance the accepted state by dt [s] while the ends follow their path; returns FINE or the kind of failure.
+
+    After a failure the state is that of the last accepted time step, and `time` that of the step's start.
+    """
+    t0, share = time[0], dt / p[STEP]
+    if not share <= MOST:
+        told[0], told[1], told[2] = dt, MOST, p[STEP]
+        return TOO_LONG
+    steps = max(1, ceil(share * (1.0 - 1e-9)), ceil(dt * speed(path) / (PASSED * p[ELEMENT])))
+    reached = march(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power,
+                    P0, P, E, count, state_size, effects)  # fmt: skip
+    if reached == 1.0:
+        time[0] = t0 + dt
+        return FINE
+    return where(n, p, t0 + reached * dt, dt / steps / 2.0**DEEPEST, q0, count, told)
+
+
+@kernel
+def speed(path):
+    """The larger of both ends' vertical speeds [m/s], at the start and at the close of a path."""
+    car, counterweight = 1, 2 * PATH + 1
+    fastest = max(abs(path[car]), abs(path[car + 3]))
+    return max(fastest, abs(path[counterweight]), abs(path[counterweight + 3]))
+
+
+@kernel
+def where(n, p, t, smallest, q0, count, told):
+    """Tell at which time a step was lost, how short it was, and at which node it went wrong."""
+    worst = int(count[WORST]) % (n + 1)
+    told[0], told[1], told[2], told[3] = t, smallest, worst * p[ELEMENT], -q0[worst]
+    if worst < n:
+        return LOST
+    told[2] = -q0[n]
+    return LOST_AT_SHEAVE

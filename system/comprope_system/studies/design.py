@@ -1,0 +1,107 @@
+"""Section 6: the least sheave weight that keeps the displacement under a limit."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from comprope.errors import InputError
+from comprope.rope.effects import RopeModel
+from comprope.rope.modelfile import as_table, with_changes
+
+from ..report.finding import Fact, Finding
+from ..report.page import Picture, Table
+from ..sweep import Case
+from .buildings import model_in, with_sheave
+from .draw import COLOURS, GREY, label, panels, plain_log
+from .study import AGREES, Ask, Study
+from .swing import MEASURES, swing, swing_case
+
+MEASURE = "whole_rest"
+LIGHTEST, HEAVIEST = 0.25, 8.0  # of the building's own sheave
+TOLERANCE = 0.005  # of the mass
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The least mass [kg] that keeps the limit, whether the search ended there, and its runs: mass [kg], displacement [m]."""
+
+    mass: float
+    at_bound: bool
+    runs: tuple[tuple[float, float], ...]
+
+
+def least_mass(model: RopeModel, trip: Mapping[str, float], limit: float, measure: str = MEASURE) -> Answer:
+    """Bisect the sheave mass of a building until the displacement on a trip up meets a limit [m].
+
+    `trip` has distance [m], speed, acceleration and jerk. The full model runs it for every mass tried; the inertia goes
+    with the mass. Displacement is `measure`, one
+    of `swing.MEASURES`, taken to fall as the mass grows. Raises `InputError` where even the heaviest sheave tried
+    does not keep the limit.
+    """
+    runs: dict[float, float] = {}
+
+    def displacement(mass: float) -> float:
+        case = {"model": as_table(with_changes(model, with_sheave(model, mass))), "trip": dict(trip)}
+        runs[mass] = float(swing(case)[measure])
+        return runs[mass]
+
+    low, high = LIGHTEST * model.sheave.mass, HEAVIEST * model.sheave.mass
+    if displacement(high) > limit:
+        raise InputError(
+            f"--limit {1e3 * limit:g}: {1e3 * runs[high]:.2f} mm or more is accepted; that is the displacement even with a "
+            f"sheave of {high:.0f} kg"
+        )
+    if displacement(low) <= limit:
+        return Answer(low, True, tuple(sorted(runs.items())))
+    while high - low > TOLERANCE * high:
+        middle = (low * high) ** 0.5
+        low, high = (low, middle) if displacement(middle) <= limit else (middle, high)
+    return Answer(high, False, tuple(sorted(runs.items())))
+
+
+def answer(case: Case) -> dict[str, Any]:
+    """`least_mass` as a case of a sweep."""
+    found = least_mass(model_in(case), case["trip"], case["limit"])
+    return {"mass": found.mass, "at_bound": found.at_bound, "runs": [list(run) for run in found.runs]}
+
+
+def _tell(ask: Ask, values: list[Any]) -> Finding:
+    (v,) = values
+    least = ("at most " if v["at_bound"] else "") + f"{v['mass']:.1f} kg"
+    trip = f"{ask.building}, {ask.distance:g} m up from the bottom landing"
+    facts = [
+        Fact(
+            "use of the model",
+            "estimate sufficient weight conditions of the sheave",
+            f"{least} for each rope keep the displacement under {1e3 * ask.limit:g} mm ({trip})",
+            AGREES,
+        )
+    ]
+    text = (
+        f"Displacement here: {MEASURES[MEASURE]}. The mass is found by bisection to {100 * TOLERANCE:g} %, every try a run "
+        "of the full model. Ask for other buildings, trips and limits by --building, --distance and --limit."
+    )
+    rows = [(f"{mass:.1f}", f"{1e3 * value:.2f}", "pass" if value <= ask.limit else "fail") for mass, value in v["runs"]]
+    table = Table(("mass [kg]", "displacement [mm]", f"under {1e3 * ask.limit:g} mm"), rows, "Runs of the bisection")
+    return Finding(facts, [text, Picture("design_least_weight", _draw(ask, v)), table])
+
+
+def _draw(ask: Ask, v: dict[str, Any]) -> Any:
+    figure, (axes,) = panels(height=2.8)
+    mass, value = zip(*v["runs"], strict=True)
+    axes.loglog(mass, [1e3 * one for one in value], "o-", color=COLOURS[0], markersize=4)
+    axes.axhline(1e3 * ask.limit, color=COLOURS[1], linewidth=1.0)
+    axes.axvline(v["mass"], color=GREY, linewidth=0.9)
+    plain_log(axes.xaxis, axes.yaxis)
+    label(axes, "sheave mass [kg]", "displacement [mm]")
+    return figure
+
+
+STUDY = Study(
+    "design",
+    "Section 6: the least sufficient weight",
+    "The proposed model can be applied to estimate sufficient weight conditions of the compensation sheave.",
+    lambda ask: [{**swing_case(ask.building, ask.distance), "limit": ask.limit}],
+    answer,
+    _tell,
+)

@@ -1,0 +1,135 @@
+"""Natural periods: closed forms, the linearised model against it and against its own forces."""
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+from comprope.errors import InputError
+from comprope.rope import work
+from comprope.rope.model import CompensationRope
+from comprope_system.hanging import HangingString, mass_for_period, side_string
+from comprope_system.linear import STICK, _interpreted, linearise
+from comprope_system.modes import Modes, modes
+from comprope_system.studies.buildings import BUILDING, TOWER, building, with_sheave
+
+CAR = 22.0
+
+
+@pytest.fixture(scope="module")
+def found() -> Modes:
+    return modes(building(BUILDING), CAR, 12)
+
+
+def test_a_string_under_even_tension_has_the_textbook_period() -> None:
+    string = HangingString(1e6, 1.0, 10.0)  # its own weight adds 1e-4 of the tension
+    assert string.period() == pytest.approx(20.0 / sqrt(1e6), rel=1e-4)
+    assert string.wkb_period(3) == pytest.approx(string.wkb_period() / 3.0)
+
+
+def test_a_chain_without_end_tension_swings_as_bernoulli_found() -> None:
+    """First zero of J0, 2.404826: with hardly any tension below, the lower end swings freely but for its fixing."""
+    string = HangingString(1e-9, 1.0, 10.0)
+    free = 4.0 * pi * sqrt(10.0 / 9.81) / 2.404826
+    assert string.period() < free
+    assert string.period() == pytest.approx(free, rel=0.15)
+
+
+def test_the_travel_time_is_the_integral_of_slowness() -> None:
+    string = HangingString(590.0, 1.2, 179.5)
+    height = np.linspace(0.0, string.length, 20001)
+    slowness = np.sqrt(1.2 / (590.0 + 1.2 * 9.81 * height))
+    assert string.travel_time == pytest.approx(np.trapezoid(slowness, height), rel=1e-8)
+    share = np.array([0.0, 0.3, 1.0])
+    assert string.share_at(string.height_at(share)) == pytest.approx(share)
+    assert string.height_at(np.ones(1))[0] == pytest.approx(string.length)
+
+
+def test_periods_agree_with_the_hanging_string(found: Modes) -> None:
+    """Bending shortens a mode by about its share (pi EI / T L^2) of energy, 1e-5 here; the higher ones by some 1e-4."""
+    model = building(BUILDING)
+    for mode in found.modes:
+        assert mode.place in ("car", "counterweight")
+        exact = side_string(model, CAR, mode.place).period(mode.half_waves)
+        assert mode.period == pytest.approx(exact, rel=2e-5 if (mode.place, mode.half_waves) == ("counterweight", 1) else 6e-4)
+
+
+def test_the_paper_period_of_10_27_s(found: Modes) -> None:
+    model = building(BUILDING)
+    assert found.first().period == pytest.approx(10.27, abs=0.12)  # preset: 119 kg from travel time without wrap and pit
+    identified = mass_for_period(model, CAR, 10.27)
+    assert identified == pytest.approx(119.0, abs=3.0)
+    assert side_string(building(BUILDING, with_sheave(BUILDING, identified)), CAR).wkb_period() == pytest.approx(10.27)
+
+
+def test_modes_are_ordered_and_orthogonal(found: Modes) -> None:
+    periods = [mode.period for mode in found.modes]
+    assert periods == sorted(periods, reverse=True)
+    node = building(BUILDING).rope.mass_per_length * building(BUILDING).rope_length / (len(found.heights) - 1)
+    first, second = (found.first(half_waves=k).shape for k in (1, 2))
+    assert abs(node * (first[:-1] * second[:-1]).sum()) < 1e-3 * node * (first[:-1] ** 2).sum()
+    with pytest.raises(LookupError):
+        found.first(half_waves=99)
+
+
+def test_both_sides_alike_with_the_car_half_way() -> None:
+    slowest = modes(building(TOWER), 25.0, 2).modes
+    assert slowest[0].period == pytest.approx(slowest[1].period, rel=1e-4)  # the sheave couples them a little
+    assert [mode.place for mode in slowest] == ["both", "both"]
+
+
+def test_the_stiffness_is_the_derivative_of_the_forces() -> None:
+    """Along random directions, without friction, whose stand-in for sticking is no derivative by position."""
+    rope = CompensationRope(building(TOWER, {"shaft.height": 2.0, "contact.friction_coefficient": 0.0}))
+    rope.settle(0.7, 1.3)
+    small, random = linearise(rope), np.random.default_rng(1)
+    assert abs(small.stiffness - small.stiffness.T).max() < 1e-9 * abs(small.stiffness).max()
+    for _ in range(3):
+        direction, h = random.standard_normal(len(small.free)), 1e-7  # m; forces are exact to 1e-6 N, curved over 1e-4 m
+        slope = (forces(rope, small.full(-h * direction)) - forces(rope, small.full(h * direction))) / (2.0 * h)
+        expected = small.stiffness @ direction
+        assert slope[small.free] == pytest.approx(expected, abs=1e-5 * np.abs(expected).max())
+
+
+def forces(rope: CompensationRope, moved: np.ndarray) -> np.ndarray:
+    """Forces on all unknowns of a rope moved from where it is."""
+    m, p = rope.n + 1, np.asarray(rope.p)
+    f, zeros = np.zeros(2 * m), np.zeros(40 * m)
+    touch, w, blocks = np.zeros(work.TOUCH), np.zeros(work.SECTIONS * m), np.zeros(1)
+    q = np.asarray(rope.state.q) + moved.ravel()
+    _interpreted()["forces"](rope.n, 0.0, p, q, zeros, w, f, touch, zeros, zeros, zeros, blocks, 0.0, 0.0, False)
+    return f
+
+
+def test_free_vibration_of_the_full_model_has_the_period() -> None:
+    """The 50 m tower, end moved by a millimetre and back within a quarter period: zero crossings of the swing that is left."""
+    model = building(TOWER)
+    period = modes(model, 10.0, 6).first().period
+    rope = CompensationRope(model)
+    rope.settle(10.0, 40.0)
+    radius, dt, seen = model.sheave.radius, 0.02, []
+    for k in range(900):
+        path = np.zeros((4, 6))
+        path[:, 0] = path[:, 3] = -10.0, -radius, -40.0, radius
+        path[3, [0, 3]] += [1e-3 * np.sin(pi * min(j * dt, 1.0)) ** 4 for j in (k, k + 1)]
+        rope.step(dt, path.ravel())
+        seen.append(rope.lateral_displacement("counterweight", 19.0)[0])
+    values = np.array(seen[100:])
+    signal = values - np.linspace(*_ends(values, round(period / dt)), len(values))
+    up = np.flatnonzero((signal[:-1] < 0.0) & (signal[1:] >= 0.0))
+    assert np.ptp(up) * dt / (len(up) - 1) == pytest.approx(period, rel=0.02)
+
+
+def _ends(values: np.ndarray, width: int) -> tuple[float, float]:
+    return float(values[:width].mean()), float(values[-width:].mean())
+
+
+def test_stick_is_between_the_frictions_grip_and_ill_condition() -> None:
+    assert 10.0 <= STICK <= 1e4
+
+
+def test_a_car_outside_the_shaft_is_refused() -> None:
+    from comprope_system.modes_job import Request, run
+
+    with pytest.raises(InputError, match=r"--car 60: 0 to shaft.height = 50 m is accepted"):
+        run(Request("tower50", 60.0, 3))
