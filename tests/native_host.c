@@ -251,7 +251,7 @@ static void scenario_states(void)
 static void scenario_wrong(void)
 {
     const Fmu fmu = load();
-    const fmi2ValueReference far = 4000000000u;
+    const fmi2ValueReference nowhere = 4000000000u;
     fmi2Real value = NAN;
     fmi2Integer order = 1;
 
@@ -268,7 +268,7 @@ static void scenario_wrong(void)
     CHECK(fmu.DoStep(one, 0.0, 0.01, 1) == fmi2Error);
     CHECK(fmu.ExitInitializationMode(one) == fmi2Error);
     CHECK(fmu.Terminate(one) == fmi2Error);
-    CHECK(fmu.GetReal(one, &far, 1, &value) == fmi2Error);
+    CHECK(fmu.GetReal(one, &nowhere, 1, &value) == fmi2Error);
     CHECK(fmu.GetReal(one, NULL, 1, &value) == fmi2Error);
     CHECK(fmu.GetReal(one, &given.output, 1, NULL) == fmi2Error);
     CHECK(fmu.GetString(one, &given.output, 1, (fmi2String[]){NULL}) == fmi2Error);

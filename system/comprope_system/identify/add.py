@@ -1,0 +1,181 @@
+"""Add an effect to a model: fitted on the fit runs with the plant's parameters, judged on the runs held out."""
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.rope.effects import RopeModel
+
+from .campaign import Campaign
+from .compare import Comparison, compare
+from .fit import Fitted, directions_of, point_of, refine
+from .hypotheses import NUISANCES, Hypothesis
+from .linear import by_effect, by_plant
+from .plain import plain
+from .point import Point, gathered, submit
+from .present import alternatives, grouped, joined, name_of, present, shape_of, short_names
+from .problem import Problem, pose, solve
+from .spectrum import frequencies
+from .values import Value, effect_results, model_of, plant_results, scale_of, set_by_runs
+
+Floats = NDArray[np.float64]
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What every fit to a campaign begins with: its weighed data, derivatives by the plant, and the plant refitted alone.
+
+    `fitted` has the effects that are in the model already, refitted too.
+    """
+
+    campaign: Campaign
+    problem: Problem
+    plant: Floats
+    fitted: Fitted
+
+
+def prepare(campaign: Campaign, executor: Executor, say: Say = lambda _: None) -> Ground:
+    """Weigh the fit runs and refit plant and present effects."""
+    runs = campaign.of_role("fit")
+    say("the model as it is")
+    nominal = gathered(runs, submit(campaign, runs, Point(), executor))
+    problem = pose(campaign, runs, executor, nominal)
+    say("plant parameters")
+    plant = by_plant(problem, Point(), problem.whitened(nominal))
+    hypothesis, coefficients = present(campaign)
+    start = np.concatenate([np.zeros(len(NUISANCES)), coefficients])
+    return Ground(campaign, problem, plant, refine(problem, hypothesis, start, Point(), plant))
+
+
+@dataclass(frozen=True)
+class Added:
+    """A model with an effect. Comparisons: the model as it stood, with its plant refitted, and with the effect.
+
+    `effects` and `plant` are fitted values by their keys in the model file.
+    """
+
+    effect: str
+    was_there: bool
+    ground: Ground
+    fitted: Fitted
+    model: RopeModel
+    effects: dict[str, Value]
+    plant: dict[str, Value]
+    before: Comparison
+    refitted: Comparison
+    after: Comparison
+
+    def to_json(self) -> dict[str, Any]:
+        """Errors before and after on fit and validate runs, and what was fitted."""
+        errors = {"as_it_stood": self.before, "plant_refitted": self.refitted, "with_effect": self.after}
+        found = {
+            "effect": self.effect, "was_in_the_model": self.was_there,
+            "error_before": self.before.fit_nrmse, "error_after": self.after.fit_nrmse,
+            "validate_error_before": self.before.validate_nrmse, "validate_error_after": self.after.validate_nrmse,
+            "parameters": short_names(self.effect, {key: one.value for key, one in self.effects.items()}),
+            "errors": {name: {"fit": one.fit_nrmse, "validate": one.validate_nrmse} for name, one in errors.items()},
+            "runs": [
+                {"file": a.file, "role": a.role, "error_before": a.nrmse, "error_after": b.nrmse}
+                for a, b in zip(self.before.runs, self.after.runs, strict=True)
+            ],
+            "intervals": {key: one.to_json() for key, one in self.effects.items()},
+            "plant": {key: one.to_json() for key, one in self.plant.items()},
+            "misfit_per_datum": self.fitted.misfit / max(len(self.ground.problem.data), 1),
+        }  # fmt: skip
+        return plain(found)  # type: ignore[no-any-return]
+
+
+def add(campaign: Campaign, effect: str, executor: Executor, say: Say = lambda _: None) -> Added:
+    """Fit the named effect with the plant and the effects that are there; one that is there is refitted.
+
+    Raises InputError for a name that is none.
+    """
+    alternatives(effect, campaign, ())
+    ground = prepare(campaign, executor, say)
+    if effect in grouped(ground.fitted.hypothesis, ground.fitted.effect_coefficients):
+        return added(ground, effect, ground.fitted, executor, was_there=True)
+    say(f"{effect}, linearised")
+    new, start = _best_start(ground, alternatives(effect, campaign, frequencies(ground.problem, ground.fitted.predictions)))
+    say(f"{effect}, on the full model")
+    fitted = fit_new(ground, new, start, ground.fitted)
+    return added(ground, name_of(new), fitted, executor)
+
+
+def _best_start(ground: Ground, tried: list[Hypothesis]) -> tuple[Hypothesis, Floats]:
+    """The alternative that explains most of what is left, by its linear look, and its coefficients there."""
+    problem, at = ground.problem, ground.fitted
+    left = problem.data - problem.whitened(at.predictions)
+    point = point_of(at.hypothesis, list(at.coefficients), Point())
+    known = directions_of(at.hypothesis)
+    own = by_effect(problem, at.hypothesis, Point(at.point.plant), at.effect_coefficients, at.predictions) if at.hypothesis else left[:, None][:, :0]
+    looks = []
+    for one in tried:
+        by = by_effect(problem, one, point, [0.0] * len(one.directions), at.predictions)
+        begin = np.concatenate([at.coefficients, np.zeros(len(one.directions))])
+        found = solve(left, np.hstack([ground.plant, own, by]), [*known, *one.directions], begin)
+        looks.append((found.misfit, one, found.coefficients[len(known) :]))
+    _, best, coefficients = min(looks, key=lambda look: look[0])
+    return best, coefficients
+
+
+def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fitted:
+    """Refine a new effect, begun at coefficients `start`, with plant and present effects, begun as `known` has them.
+
+    What shapes the effect beyond its size is then freed, where it has such: a frequency, a yield curvature.
+    """
+    old = [part for part, _ in known.hypothesis.shares(known.effect_coefficients)] if known.hypothesis else []
+    begin = np.concatenate([known.coefficients[: len(NUISANCES)], start, known.coefficients[len(NUISANCES) :]])
+    fitted = refine(ground.problem, joined([new, *old]), begin, Point(), ground.plant)
+    return _shaped(ground, new, old, fitted)
+
+
+def _shaped(ground: Ground, new: Hypothesis, old: list[Hypothesis], fitted: Fitted) -> Fitted:
+    longest = max(float(run.time[-1] - run.time[0]) for run in ground.problem.runs)
+    shapes = [shape for part in (new.parts or (new,)) if (shape := shape_of(part, longest))]
+    if not shapes:
+        return fitted
+    begin = np.concatenate([fitted.coefficients, np.zeros(len(shapes))])
+    freed = refine(ground.problem, joined([new, *old, *shapes]), begin, Point(), ground.plant)
+    return freed if freed.cost < fitted.cost else fitted
+
+
+def added(ground: Ground, effect: str, fitted: Fitted, executor: Executor, was_there: bool = False) -> Added:
+    """Make the model of a fit and judge it on all runs."""
+    campaign, scale = ground.campaign, scale_of(fitted, len(ground.problem.data))
+    deviations = scale * fitted.deviation[len(NUISANCES) :]
+    model = model_of(campaign, fitted)
+    return Added(
+        effect, was_there, ground, fitted, model,
+        effect_results(fitted.hypothesis, fitted.effect_coefficients, list(deviations)),
+        plant_results(campaign, fitted, scale),
+        compare(campaign, executor),
+        compare(replace(campaign, model=model_of(campaign, ground.fitted)), executor),
+        compare(replace(campaign, model=model), executor),
+    )  # fmt: skip
+
+
+def heading(one: Added) -> str:
+    """What a model file's comment says about its fit."""
+    campaign = one.before.campaign
+    files = ", ".join(run.file for run in campaign.of_role("fit"))
+    replaced = set_by_runs(campaign)
+    effects = {key: value for key, value in one.effects.items() if value.deviation > 0.0}
+    plant = {key: value for key, value in one.plant.items() if key not in replaced}
+    lines = [
+        f'{campaign.model_path.name} with {one.effect}, fitted to the campaign "{campaign.name}" ({files}).',
+        f"Error on these runs {_percent(one.before.fit_nrmse)} before, {_percent(one.after.fit_nrmse)} after;",
+        f"on runs held out {_percent(one.before.validate_nrmse)} before, {_percent(one.after.validate_nrmse)} after.",
+        "Fitted values with one standard deviation:",
+        *(f"  {key} = {value.told()}" for key, value in effects.items()),
+        *(f"  {key} = {value.told()} (was {value.before:.4g})" for key, value in plant.items()),
+    ]
+    return "\n".join(lines)
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %" if np.isfinite(share) else "unknown"

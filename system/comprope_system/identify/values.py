@@ -1,0 +1,101 @@
+"""Fitted numbers as a person reads them: values with their uncertainty, and the model that has them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import hypot, isfinite
+
+import numpy as np
+
+from comprope.declare import Quantity, quantities
+from comprope.rope.effects import REGISTRY, RopeModel
+from comprope.rope.model import values_of
+from comprope.rope.modelfile import with_changes
+
+from .campaign import Campaign
+from .fit import Fitted
+from .hypotheses import NUISANCES, Hypothesis
+
+CONFIDENCE = 1.96  # standard deviations of a 95 % interval
+
+
+@dataclass(frozen=True)
+class Value:
+    """A fitted value [SI], its standard deviation, the bounds of its 95 % interval, and what the file said."""
+
+    value: float
+    deviation: float
+    low: float
+    high: float
+    before: float | None = None
+
+    def told(self) -> str:
+        """The value with its standard deviation, to as many digits as make sense."""
+        if not isfinite(self.deviation) or self.deviation <= 0.0:
+            return f"{self.value:.4g}"
+        digits = max(0, int(np.ceil(np.log10(max(abs(self.value), self.deviation) / self.deviation))) + 1)
+        return f"{self.value:.{min(max(digits, 2), 6)}g} ± {self.deviation:.2g}"
+
+    def to_json(self) -> dict[str, float | None]:
+        """Value, standard deviation and 95 % interval."""
+        return {"value": self.value, "deviation": self.deviation, "low": self.low, "high": self.high, "before": self.before}
+
+
+def scale_of(fitted: Fitted, count: int) -> float:
+    """By how much standard deviations are widened: a model that misses the data knows its parameters less well."""
+    return float(np.sqrt(max(1.0, fitted.misfit / max(count, 1))))
+
+
+def effect_results(hypothesis: Hypothesis | None, coefficients: Sequence[float], deviations: Sequence[float]) -> dict[str, Value]:
+    """Every value that a hypothesis sets, with its uncertainty, by its key in the model file."""
+    found: dict[str, Value] = {}
+    at = 0
+    for part, own in hypothesis.shares(list(coefficients)) if hypothesis else []:
+        spread = list(deviations[at : at + len(own)])
+        at += len(own)
+        values = part.parameters(own)
+        found |= {key: _value(key, value, _deviation(part, own, spread, key)) for key, value in values.items()}
+    return found
+
+
+def _deviation(part: Hypothesis, own: Sequence[float], spread: Sequence[float], key: str) -> float:
+    if part.polar and key in part.polar:
+        (c, s), (dc, ds), size = own, spread, part.directions[0].changes[part.polar[0]]
+        length = max(hypot(c, s), 1e-300)
+        along, across = hypot(c * dc, s * ds) / length, hypot(s * dc, c * ds) / length
+        return size * along if key == part.polar[0] else across / length
+    return hypot(*(d * one.changes.get(key, 0.0) for d, one in zip(spread, part.directions, strict=True)))
+
+
+def _value(key: str, value: float, deviation: float) -> Value:
+    declared = _declared(key)
+    low, high = (declared.minimum, declared.maximum) if declared else (-float("inf"), float("inf"))
+    reach = CONFIDENCE * deviation
+    return Value(value, deviation, max(value - reach, low), min(value + reach, high))
+
+
+def _declared(key: str) -> Quantity | None:
+    _, name, short = key.split(".", 2)
+    return next((one for one in quantities(REGISTRY[name]) if one.name == short), None) if name in REGISTRY else None
+
+
+def plant_results(campaign: Campaign, fitted: Fitted, scale: float = 1.0) -> dict[str, Value]:
+    """The refitted plant by model key; values of the model file, which a run may replace."""
+    base, found = values_of(campaign.model), {}
+    for k, one in enumerate(NUISANCES):
+        size = base[one.name] if one.relative else 1.0
+        value = max(base[one.name] + size * float(fitted.coefficients[k]), 0.0)
+        deviation = abs(size) * scale * float(fitted.deviation[k])
+        found[one.name] = Value(value, deviation, value - CONFIDENCE * deviation, value + CONFIDENCE * deviation, base[one.name])
+    return found
+
+
+def set_by_runs(campaign: Campaign) -> set[str]:
+    """Model keys that some run replaces: a model file cannot change them."""
+    return {key for run in campaign.runs for key in run.changes}
+
+
+def model_of(campaign: Campaign, fitted: Fitted) -> RopeModel:
+    """The model with the fitted plant and effects; what runs replace stays as the file has it."""
+    replaced = set_by_runs(campaign)
+    plant = {key: one.value for key, one in plant_results(campaign, fitted).items() if key not in replaced}
+    return with_changes(campaign.model, plant | dict(fitted.point.effects), "fit")
