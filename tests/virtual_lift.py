@@ -4,6 +4,7 @@ The lift is the rope model itself, but on a finer mesh, at another step and with
 under test has something to be wrong about even when no effect is hidden.
 """
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -20,20 +21,24 @@ MODEL = validated(
         "shaft": {"height": 20.0, "pit": 1.2},
         "rope": {
             "mass_per_length": 1.2, "diameter": 0.018, "axial_stiffness": 8.0e6, "bending_stiffness": 20.0,
-            "axial_damping": 2.0e3, "bending_damping": 0.1, "element_length": 0.1,
+            "axial_damping": 2.0e3, "bending_damping": 0.1, "element_length": 0.08,
         },
         "sheave": {"mass": 120.0, "radius": 0.4, "inertia": 9.6},
         "contact": {"stiffness": 1.2e7, "damping": 8.0e3, "friction_coefficient": 0.3, "slip_velocity": 0.02},
-        "sensors": [{"name": "cw_low", "side": "counterweight", "height": 1.0}, {"name": "car_low", "side": "car", "height": 0.5}],
+        "sensors": [
+            {"name": "cw_low", "side": "counterweight", "height": 1.0},
+            {"name": "car_low", "side": "car", "height": 0.5},
+        ],
     },
     "small lift",
 )  # fmt: skip
 FINER = {"rope.element_length": 0.06}
 PLANT = {"rope.bending_stiffness": 21.2, "rope.mass_per_length": 1.18, "rope.bending_damping": 0.11}
+LASER = {"quantity": "lateral_displacement", "unit": "mm", "reference": "rest", "noise": 0.3}
 CHANNELS = {
-    "cw_low": Channel(column="cw_low", quantity="lateral_displacement", sensor="cw_low", unit="mm", reference="rest", noise=0.2),
-    "car_low": Channel(column="car_low", quantity="lateral_displacement", sensor="car_low", unit="mm", reference="rest", noise=0.2),
-    "axle": Channel(column="axle", quantity="sheave_displacement", unit="mm", reference="rest", noise=0.02),
+    "cw_low": Channel(column="cw_low", sensor="cw_low", **LASER),
+    "car_low": Channel(column="car_low", sensor="car_low", **LASER),
+    "axle": Channel(column="axle", quantity="sheave_displacement", unit="mm", reference="rest", noise=0.05),
     "turning": Channel(column="turning", quantity="sheave_angular_velocity", unit="rad/s", noise=0.01),
 }
 PHASES = np.array([0.8, 0.3, 0.8, 1.5, 0.8, 0.3, 0.8])  # s, from rest to rest
@@ -73,7 +78,8 @@ def description() -> str:
     """campaign.toml of the virtual lift."""
     lines = ['name = "small lift"', 'model = "lift.toml"']
     for one in CHANNELS.values():
-        lines += ["[[channels]]", *(f'{key} = {value!r}'.replace("'", '"') for key, value in one.model_dump(exclude_none=True).items())]
+        keys = one.model_dump(exclude_none=True).items()
+        lines += ["[[channels]]", *(f"{key} = {json.dumps(value)}" for key, value in keys)]
     for file, role, _, _, changes in RUNS:
         changed = ", ".join(f'"{key}" = {value}' for key, value in changes.items())
         lines += ["[[runs]]", f'file = "{file}"', f'role = "{role}"', f"set = {{ {changed} }}"]

@@ -19,7 +19,7 @@ from .modes import Mode, Modes, modes
 from .presets import model_path
 from .studies.draw import COLOURS, label, legend, panels
 from .trip_job import PICTURES
-from .trip_job import _assignments as assignments
+from .trip_job import assignments
 
 SHOWN = 6  # shapes in the picture
 

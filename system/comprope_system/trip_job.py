@@ -62,7 +62,7 @@ def run(request: Request) -> Simulated:
     measured = None
     if request.motion.car:
         measured = read_run(request.motion.car, model.shaft.height, names)
-        model = with_changes(model, measured.changes | _assignments(request.changes), "--set")
+        model = with_changes(model, measured.changes | assignments(request.changes), "--set")
     lift, duration = _lift(request, model, drive_changes, measured)
     duration = duration if request.duration is None else request.duration
     timing = Timing(duration, request.step, "one-way" if request.one_way else "two-way")
@@ -85,7 +85,7 @@ def _require_files(request: Request) -> None:
 def _model(request: Request) -> tuple[RopeModel, dict[str, dict[str, Any]]]:
     """The model with its changes, and the changes that concern the drive, by table and key."""
     own, drive = {}, dict[str, dict[str, Any]]()
-    for key, value in _assignments(request.changes).items():
+    for key, value in assignments(request.changes).items():
         table, _, name = key.partition(".")
         if table in Drive.model_fields and table not in RopeModel.model_fields:
             drive.setdefault(table, {})[name] = value
@@ -94,7 +94,7 @@ def _model(request: Request) -> tuple[RopeModel, dict[str, dict[str, Any]]]:
     return with_changes(load(model_path(request.model)), own, "--set"), drive
 
 
-def _assignments(texts: Sequence[str]) -> dict[str, Any]:
+def assignments(texts: Sequence[str]) -> dict[str, Any]:
     """`["sheave.mass=90"]` as `{"sheave.mass": 90}`; values are written as in a model file."""
     found = {}
     for text in texts:

@@ -6,7 +6,7 @@ Model description, documentation and icon come from where those of the FMU that 
 import sys
 import uuid
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..fmi.build import DESCRIPTION, Origin, digest, zipped
@@ -21,24 +21,24 @@ from ..rope.effects.base import REGISTRY
 from ..whole import whole_file
 from . import link
 from .ir import kernels, sizes
-from .machine import machine_code
+from .machine import TARGETS, machine_code
 from .tables import kernels_header, model_source
 
 _OWN_EFFECTS = "comprope.rope.effects."
 
 
-def build_native(interface: ModelInterface, out: Path, origin: Origin) -> Path:
+def build_native(interface: ModelInterface, out: Path, origin: Origin, targets: Sequence[str] = ()) -> Path:
     """Write `<out>/<name>-native.fmu`, whole or not at all, and return its path.
 
-    It has binaries for every system that can be linked for here (see `link.linkable`). Effects that are
-    registered are compiled in. The same sources and tools give the same bytes.
+    It has binaries for `targets` (see `machine.TARGETS`), by default all that can be linked for here. Effects that
+    are registered are compiled in. The same sources and tools give the same bytes.
     """
     if problems := interface_problems(interface):
         raise InputError("; ".join(problems))
-    effects = effect_files()
+    effects, chosen = effect_files(), list(targets) or link.linkable()
     code, header = kernels(effects), kernels_header(interface, sizes(effects))
-    compiled = {name: machine_code(code, target) for name, target in link.linkable().items()}
-    content = _documentation(interface, origin)
+    compiled = {name: machine_code(code, TARGETS[name]) for name in chosen}
+    content = _documentation(interface, origin, link.systems(chosen))
     parts = {f"kernels/{name}": one for name, one in compiled.items()} | content
     guid = _identity(interface, origin.version, header, parts)
     content[DESCRIPTION] = description(interface, origin.version, guid)
@@ -74,10 +74,10 @@ def _identity(interface: ModelInterface, version: str, header: str, parts: Mappi
     return str(uuid.UUID(digest(sources | {DESCRIPTION: description(interface, version, "")})[:32]))
 
 
-def _documentation(interface: ModelInterface, origin: Origin) -> dict[str, bytes]:
+def _documentation(interface: ModelInterface, origin: Origin, systems: str) -> dict[str, bytes]:
     return {
         "model.png": icon(),
-        "documentation/index.html": page(interface, origin.version, systems=link.systems()).encode(),
+        "documentation/index.html": page(interface, origin.version, systems=systems).encode(),
         "documentation/licenses/license.txt": origin.licence.encode(),
         "documentation/licenses/fmi-headers.txt": _header_licence().encode(),
     }

@@ -7,7 +7,7 @@ import struct
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -33,14 +33,14 @@ def toolchain() -> str:
     return f"zig {metadata.version('ziglang')}" if _zig() else f"{_system_compiler()}, for this system only"
 
 
-def linkable() -> dict[str, Target]:
-    """The targets that can be linked here: all with zig, the present one otherwise."""
-    return TARGETS if _zig() else {_here(): TARGETS[_here()]}
+def linkable() -> list[str]:
+    """The targets that can be linked here, by their names in TARGETS: all with zig, the present one otherwise."""
+    return list(TARGETS) if _zig() else [here()]
 
 
-def systems() -> str:
-    """The systems of `linkable`, as in `Linux (glibc 2.17 or newer) and Windows`."""
-    *most, last = dict.fromkeys(target.system for target in linkable().values())
+def systems(targets: Iterable[str]) -> str:
+    """The systems of some targets, as in `Linux and Windows`."""
+    *most, last = dict.fromkeys(TARGETS[name].system for name in targets)
     return f"{', '.join(most)} and {last}" if most else last
 
 
@@ -100,7 +100,8 @@ def _system_compiler() -> str:
     return found
 
 
-def _here() -> str:
+def here() -> str:
+    """The name in TARGETS of the system this runs on."""
     kind = "arm64" if platform.machine().lower() in ("arm64", "aarch64") else "x86_64"
     name = {"linux": "linux", "win32": "windows", "darwin": f"macos-{kind}"}.get(sys.platform, sys.platform)
     if name not in TARGETS or (kind == "arm64" and "arm64" not in name):

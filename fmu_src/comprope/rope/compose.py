@@ -19,15 +19,15 @@ from typing import Any
 import numba
 
 from . import (
-    band, contact, display, dynamics, elastica, ends, following, glance, hooks, jit, lanes, ledger, march, newmark, sensors, slope, slots,
-    standing, statics, tangent, travel, words, work, zone,
+    acting, band, contact, display, dynamics, elastica, ends, following, glance, hooks, jit, journey, lanes, ledger, march, newmark,
+    sensors, slope, slots, standing, statics, tangent, travel, vector, words, work, zone,
 )  # fmt: skip
 from .effects import REGISTRY
 from .effects.base import Effect, Kernel
 
 MODULES = (
     work, words, jit, hooks, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics, standing, following,
-    travel, sensors, display, lanes, slope, tangent, glance,
+    travel, sensors, display, vector, lanes, slope, acting, tangent, journey, glance,
 )  # fmt: skip
 ARGUMENTS = {
     "moments": "n, p, w, h0, h1",
@@ -51,7 +51,7 @@ ENTRIES = {
     "place": (ends.place_ends, "nothing"),
     "sight": (sensors.sight, "nothing"),
     "side_maximum": (sensors.side_maximum, "nothing"),
-    "advance_tangent": (tangent.travel_tangent, "integer"),
+    "advance_tangent": (journey.travel_tangent, "integer"),
     "hang_again": (glance.hang_again, "number"),
     "differentiate": (tangent.differentiate, "nothing"),
     "look": (glance.look, "nothing"),
@@ -139,8 +139,7 @@ def bound(names: Mapping[str, Any], module: str) -> dict[str, Any]:
         function = getattr(value, "py_func", value)
         compilable = value is not function or jit.PURE and isinstance(function, types.FunctionType)
         if compilable and function.__module__ not in (jit.__name__, module):
-            compile_again = jit.contracted if getattr(value, "targetoptions", {}).get("fastmath") else jit.kernel
-            copy[key] = compile_again(types.FunctionType(function.__code__, copy, function.__name__))
+            copy[key] = jit.kernel(types.FunctionType(function.__code__, copy, function.__name__))
     return copy
 
 

@@ -7,6 +7,7 @@ from .jit import kernel
 from .sensors import crossing, smooth
 from .slots import ELEMENT
 from .statics import rest
+from .vector import LANES
 
 
 @kernel
@@ -47,31 +48,51 @@ def smooth_slope(values, base, i, s):
 
 
 @kernel
-def look_between(n, q, dq, i, x, b):
-    """Change of the lateral position seen at depth x between nodes i and i + 1, near the rope's end: on a straight line."""
-    m, length = n + 1, q[i + 1] - q[i]
-    s = (x - q[i]) / length
-    dx, dy = dq[b + i] + s * (dq[b + i + 1] - dq[b + i]), dq[b + m + i] + s * (dq[b + m + i + 1] - dq[b + m + i])
-    return dy - (q[m + i + 1] - q[m + i]) / length * dx
+def weights(s):
+    """What `sensors.smooth` makes of its four nodes, as weights."""
+    return (
+        0.5 * s * (-1.0 + s * (2.0 - s)),
+        1.0 + 0.5 * s * s * (3.0 * s - 5.0),
+        0.5 * s * (1.0 + s * (4.0 - 3.0 * s)),
+        0.5 * s * s * (s - 1.0),
+    )
 
 
 @kernel
-def look(n, q0, dq, directions, sensors, sides, depths, glances):
+def look(n, directions, sensors, q0, dq, sides, depths, glances):
     """Set glances[j directions + k] to the derivative along direction k of the lateral position that sensor j sees.
 
-    A sensor at a fixed depth sees dy - (dy/dx) dx of the place on the rope that is before it.
+    A sensor at a fixed depth sees dy - (dy/dx) dx of the place on the rope that is before it. Next to the ends the
+    rope is seen as straight elements.
     """
     m = n + 1
     for j in range(sensors):
-        i, x = seen_node(n, q0, int(sides[j]), depths[j]), depths[j]
-        inner = 1 <= i <= n - 3
-        s = crossing(q0, i, x) if inner else 0.0
-        lean = smooth_slope(q0, m, i, s) / smooth_slope(q0, 0, i, s) if inner else 0.0
+        x = depths[j]
+        i = seen_node(n, q0, int(sides[j]), x)
+        if 1 <= i <= n - 3:
+            s = crossing(q0, i, x)
+            lean = smooth_slope(q0, m, i, s) / smooth_slope(q0, 0, i, s)
+            a, b, c, d = weights(s)
+        elif i >= 0:
+            s = (x - q0[i]) / (q0[i + 1] - q0[i])
+            lean = (q0[m + i + 1] - q0[m + i]) / (q0[i + 1] - q0[i])
+            a, b, c, d = 0.0, 1.0 - s, s, 0.0
+        else:
+            i, lean, a, b, c, d = -1 - i, 0.0, 0.0, 1.0, 0.0, 0.0
         for k in range(directions):
-            b = 2 * m * k
-            if inner:
-                glances[j * directions + k] = smooth(dq, b + m, i, s) - lean * smooth(dq, b, i, s)
-            elif i >= 0:
-                glances[j * directions + k] = look_between(n, q0, dq, i, x, b)
-            else:
-                glances[j * directions + k] = dq[b + m - 1 - i]
+            at = (k // LANES * 2 * m + 2 * i) * LANES + k % LANES
+            dx = gather(dq, at, i, n, a, b, c, d)
+            glances[j * directions + k] = gather(dq, at + LANES, i, n, a, b, c, d) - lean * dx
+
+
+@kernel
+def gather(dq, at, i, n, a, b, c, d):
+    """Sum of the entries of nodes i - 1 .. i + 2 by their weights; nodes that do not exist have none."""
+    total = b * dq[at]
+    if i >= 1:
+        total += a * dq[at - 2 * LANES]
+    if i <= n - 2:
+        total += c * dq[at + 2 * LANES]
+    if i <= n - 3:
+        total += d * dq[at + 4 * LANES]
+    return total

@@ -27,17 +27,7 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     return numba.njit(function, **OPTIONS)  # type: ignore[no-any-return]
 
 
-def contracted(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile a kernel whose products may be joined with sums into one rounding, which is faster.
-
-    Its last bits depend on the processor: not for the rope's own motion.
-    """
-    if PURE:
-        return function
-    return numba.njit(function, fastmath={"contract"}, **OPTIONS)  # type: ignore[no-any-return]
-
-
-INTEGERS = {"n", "m", "steps", "state_size", "effects", "side", "directions", "parameters", "sensors"}
+INTEGERS = {"n", "m", "steps", "state_size", "effects", "side", "directions", "blocks", "parameters", "sensors"}
 FLAGS = {"tangent"}
 NUMBERS = {"t", "t0", "dt", "s", "ck", "cc", "x", "element"}
 

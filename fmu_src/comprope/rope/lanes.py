@@ -1,123 +1,102 @@
-"""Substitution for `LANES` right-hand sides at once, with the factor that `band` and `zone` hold.
+"""Substitution for many right-hand sides at once, with the factor that `band` and `zone` hold.
 
-A recurrence makes one right-hand side wait for itself at every node; several next to each other fill
-the waiting and read the factor once. Entry (node i, component c, lane s) of a block of right-hand
-sides sits at base + (2 i + c) LANES + s, so that all distances within a loop are constants.
+A recurrence makes one right-hand side wait for itself at every node; LANES of them share each
+instruction, and the blocks of LANES fill each other's waiting. Number (node i, component c) of block k
+sits at (k 2 m + 2 i + c) LANES of R and has a lane for each of its right-hand sides.
 """
 
 from .jit import kernel
-from .vector import LANES, subtract, turn
+from .vector import LANES, put, take
 from .zone import ROW, WIDTH
 
-TILE = 32  # nodes that are moved at once between rows and lanes, so that both stay at hand
-
 
 @kernel
-def interleave(m, D, row, R, base):
-    """Write rows `row` .. `row` + LANES - 1 of D, each 2 m long, as the lanes of one block of R.
-
-    The lanes are written out for the compiler, which turns them into shuffles of whole vectors.
-    """
-    for c in range(2):
-        k, at = 2 * m * row + c * m, base + c * LANES
-        for i in range(m):
-            R[at + 2 * LANES * i] = D[k + i]
-            R[at + 2 * LANES * i + 1] = D[k + 2 * m + i]
-            R[at + 2 * LANES * i + 2] = D[k + 4 * m + i]
-            R[at + 2 * LANES * i + 3] = D[k + 6 * m + i]
-            R[at + 2 * LANES * i + 4] = D[k + 8 * m + i]
-            R[at + 2 * LANES * i + 5] = D[k + 10 * m + i]
-            R[at + 2 * LANES * i + 6] = D[k + 12 * m + i]
-            R[at + 2 * LANES * i + 7] = D[k + 14 * m + i]
-
-
-@kernel
-def separate(m, R, base, D, row):
-    """Undo `interleave`."""
-    for begin in range(0, m, TILE):
-        for s in range(2 * LANES):
-            c, at = (row + s % LANES) * 2 * m + s // LANES * m, base + s
-            for i in range(begin, min(begin + TILE, m)):
-                D[c + i] = R[at + 2 * LANES * i]
-
-
-@kernel
-def forward_lanes(m, L, R, base, i, j, k):
+def forward_lanes(m, L, R, blocks, i, j, k):
     """What `band.forward` does, for every lane."""
-    x, j, k = base + 2 * LANES * i, base + 2 * LANES * j, base + 2 * LANES * k
-    y = x + LANES
-    subtract(R, j, L[3 * m + i], x, L[5 * m + i], y)
-    subtract(R, j + LANES, L[4 * m + i], x, L[6 * m + i], y)
-    subtract(R, k, L[7 * m + i], x, L[9 * m + i], y)
-    subtract(R, k + LANES, L[8 * m + i], x, L[10 * m + i], y)
+    jxx, jyx, jxy, jyy = L[3 * m + i], L[4 * m + i], L[5 * m + i], L[6 * m + i]
+    kxx, kyx, kxy, kyy = L[7 * m + i], L[8 * m + i], L[9 * m + i], L[10 * m + i]
+    for block in range(blocks):
+        base = 2 * LANES * m * block
+        to_i, to_j, to_k = base + 2 * LANES * i, base + 2 * LANES * j, base + 2 * LANES * k
+        x, y = take(R, to_i), take(R, to_i + LANES)
+        put(R, to_j, take(R, to_j) - jxx * x - jxy * y)
+        put(R, to_j + LANES, take(R, to_j + LANES) - jyx * x - jyy * y)
+        put(R, to_k, take(R, to_k) - kxx * x - kxy * y)
+        put(R, to_k + LANES, take(R, to_k + LANES) - kyx * x - kyy * y)
 
 
 @kernel
-def backward_lanes(m, L, R, base, i, j, k):
+def backward_lanes(m, L, R, blocks, i, j, k):
     """What `band.backward` does, for every lane."""
-    x, j, k = base + 2 * LANES * i, base + 2 * LANES * j, base + 2 * LANES * k
-    y = x + LANES
-    turn(R, x, y, L[i], L[m + i], L[m + i], L[2 * m + i])
-    subtract(R, x, L[7 * m + i], k, L[8 * m + i], k + LANES)
-    subtract(R, y, L[9 * m + i], k, L[10 * m + i], k + LANES)
-    subtract(R, x, L[3 * m + i], j, L[4 * m + i], j + LANES)
-    subtract(R, y, L[5 * m + i], j, L[6 * m + i], j + LANES)
+    dxx, dxy, dyy = L[i], L[m + i], L[2 * m + i]
+    jxx, jxy, jyx, jyy = L[3 * m + i], L[4 * m + i], L[5 * m + i], L[6 * m + i]
+    kxx, kxy, kyx, kyy = L[7 * m + i], L[8 * m + i], L[9 * m + i], L[10 * m + i]
+    for block in range(blocks):
+        base = 2 * LANES * m * block
+        to_i, to_j, to_k = base + 2 * LANES * i, base + 2 * LANES * j, base + 2 * LANES * k
+        x, y, jx, jy = take(R, to_i), take(R, to_i + LANES), take(R, to_j), take(R, to_j + LANES)
+        kx, ky = take(R, to_k), take(R, to_k + LANES)
+        put(R, to_i, dxx * x + dxy * y - kxx * kx - kxy * ky - jxx * jx - jxy * jy)
+        put(R, to_i + LANES, dxy * x + dyy * y - kyx * kx - kyy * ky - jyx * jx - jyy * jy)
 
 
 @kernel
-def inwards_lanes(n, L, R, base, first, last):
+def inwards_lanes(n, L, R, blocks, first, last):
     """What `band.inwards` does, for every lane."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(both):
-        forward_lanes(m, L, R, base, e, e + 1, e + 2)
-        forward_lanes(m, L, R, base, n - 1 - e, n - 2 - e, n - 3 - e)
+        forward_lanes(m, L, R, blocks, e, e + 1, e + 2)
+        forward_lanes(m, L, R, blocks, n - 1 - e, n - 2 - e, n - 3 - e)
     for e in range(both, first):
-        forward_lanes(m, L, R, base, e, e + 1, e + 2)
+        forward_lanes(m, L, R, blocks, e, e + 1, e + 2)
     for e in range(both, right):
-        forward_lanes(m, L, R, base, n - 1 - e, n - 2 - e, n - 3 - e)
+        forward_lanes(m, L, R, blocks, n - 1 - e, n - 2 - e, n - 3 - e)
 
 
 @kernel
-def outwards_lanes(n, L, R, base, first, last):
+def outwards_lanes(n, L, R, blocks, first, last):
     """What `band.outwards` does, for every lane."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(right - 1, both - 1, -1):
-        backward_lanes(m, L, R, base, n - 1 - e, n - 2 - e, n - 3 - e)
+        backward_lanes(m, L, R, blocks, n - 1 - e, n - 2 - e, n - 3 - e)
     for e in range(first - 1, both - 1, -1):
-        backward_lanes(m, L, R, base, e, e + 1, e + 2)
+        backward_lanes(m, L, R, blocks, e, e + 1, e + 2)
     for e in range(both - 1, -1, -1):
-        backward_lanes(m, L, R, base, e, e + 1, e + 2)
-        backward_lanes(m, L, R, base, n - 1 - e, n - 2 - e, n - 3 - e)
+        backward_lanes(m, L, R, blocks, e, e + 1, e + 2)
+        backward_lanes(m, L, R, blocks, n - 1 - e, n - 2 - e, n - 3 - e)
 
 
 @kernel
 def solve_zone_lanes(n, B, R, base, first, last):
-    """What `zone.solve_zone` does, for every lane; rows of the zone follow each other in R."""
+    """What `zone.solve_zone` does, for every lane of a block; rows of the zone follow each other in R."""
     size, row, sheave = 2 * (last - first + 1), base + 2 * LANES * first, base + 2 * LANES * n
+    height, turn = take(R, sheave), take(R, sheave + LANES)
     for k in range(size):
+        x = take(R, row + LANES * k)
         for j in range(k + 1, min(k + WIDTH + 1, size)):
-            subtract(R, row + LANES * j, B[ROW * j + WIDTH - (j - k)], row + LANES * k, 0.0, row)
-        subtract(R, sheave, B[ROW * size + 2 * k], row + LANES * k, 0.0, row)
-        subtract(R, sheave + LANES, B[ROW * size + 2 * k + 1], row + LANES * k, 0.0, row)
+            put(R, row + LANES * j, take(R, row + LANES * j) - B[ROW * j + WIDTH - (j - k)] * x)
+        height = height - B[ROW * size + 2 * k] * x
+        turn = turn - B[ROW * size + 2 * k + 1] * x
     corner = (ROW + 2) * size
     a, b, c, d = B[corner], B[corner + 1], B[corner + 2], B[corner + 3]
     one = 1.0 / (a * d - b * c)
-    turn(R, sheave, sheave + LANES, d * one, -b * one, -c * one, a * one)
+    height, turn = (d * one) * height - (b * one) * turn, (a * one) * turn - (c * one) * height
+    put(R, sheave, height)
+    put(R, sheave + LANES, turn)
     for k in range(size - 1, -1, -1):
         at = ROW * k + WIDTH
-        subtract(R, row + LANES * k, B[at + WIDTH + 1], sheave, B[at + WIDTH + 2], sheave + LANES)
+        x = take(R, row + LANES * k) - B[at + WIDTH + 1] * height - B[at + WIDTH + 2] * turn
         for c in range(1, min(WIDTH + 1, size - k)):
-            subtract(R, row + LANES * k, B[at + c], row + LANES * (k + c), 0.0, row)
-        pivot = 1.0 / B[at]
-        for s in range(LANES):
-            R[row + LANES * k + s] *= pivot
+            x = x - B[at + c] * take(R, row + LANES * (k + c))
+        put(R, row + LANES * k, (1.0 / B[at]) * x)
 
 
 @kernel
-def solve_lanes(n, L, B, R, base, first, last):
-    """Solve the factored tangent for one block of right-hand sides, in place."""
-    inwards_lanes(n, L, R, base, first, last)
-    solve_zone_lanes(n, B, R, base, first, last)
-    outwards_lanes(n, L, R, base, first, last)
+def solve_lanes(n, L, B, R, blocks, first, last):
+    """Solve the factored tangent for all right-hand sides, in place."""
+    inwards_lanes(n, L, R, blocks, first, last)
+    for block in range(blocks):
+        solve_zone_lanes(n, B, R, 2 * LANES * (n + 1) * block, first, last)
+    outwards_lanes(n, L, R, blocks, first, last)

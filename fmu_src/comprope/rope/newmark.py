@@ -12,16 +12,18 @@ halved, up to `DEEPEST` times; what is accepted has always converged.
 from math import isfinite
 
 from .band import factor, inwards, outwards
+from .contact import reach
 from .dynamics import forces, node_mass, tangent_band
 from .ends import place_ends
 from .jit import kernel
-from .slots import ALPHA, M, R, J
+from .slots import ALPHA, ELEMENT, J, M, R
 from .work import FIRST, LAST
 from .zone import factor_zone, fill, solve_zone
 
 TOLERANCE = 1e-8  # m
 ITERATIONS = 12
 SLOW = 0.1  # a correction that shrinks by less than this asks for a new tangent
+CARRIED = 32  # nodes beside the groove that still feel its curvature
 DEEPEST = 12  # halvings of one step
 
 # Entries of `count`: what the run has cost so far, and where a failed step went wrong.
@@ -36,6 +38,30 @@ def predict(n, p, h, q0, v0, a0, q, v, a):
         a[i] = a0[i]
         v[i] = v0[i] + h * a0[i]
         q[i] = q0[i] + h * (v0[i] + 0.5 * h * a0[i])
+
+
+@kernel
+def carry(n, p, h, q0, v0, a0, q, v, a, touch):
+    """Start of the iteration for the nodes near the sheave, which the rope carries along its own shape.
+
+    That shape hardly changes in a step, but a node runs along it by a good part of an element, and its
+    acceleration changes from nothing to v^2 / R on the way. So each node starts with the acceleration
+    of the place that it comes to.
+    """
+    m, alpha, per_l = n + 1, p[ALPHA], 1.0 / p[ELEMENT]
+    beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
+    reach(n, p, q0, q0[n], 0.0, touch)
+    first, last = max(int(touch[FIRST]) - CARRIED, 1), min(int(touch[LAST]) + CARRIED, n - 2)
+    for i in range(first, last + 1):
+        along = 0.5 * ((q0[i + 1] - q0[i - 1]) * v0[i] + (q0[m + i + 1] - q0[m + i - 1]) * v0[m + i]) * per_l
+        place = min(max(i + along * h * per_l, 1.0), n - 2.0)
+        k = min(int(place), n - 3)
+        s = place - k
+        for c in (0, m):
+            change = a0[c + k] + s * (a0[c + k + 1] - a0[c + k]) - a0[c + i]
+            a[c + i] += change
+            v[c + i] += gamma * h * change
+            q[c + i] += beta * h * h * change
 
 
 @kernel
@@ -98,6 +124,7 @@ def attempt(
     alpha = p[ALPHA]
     ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
     predict(n, p, h, q0, v0, a0, q, v, a)
+    carry(n, p, h, q0, v0, a0, q, v, a, touch)
     place_ends(n, t, p, path, dt, s, q, v, a)
     before, fresh, first, last = 1e300, True, 0, 0
     for _ in range(ITERATIONS):

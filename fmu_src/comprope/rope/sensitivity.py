@@ -17,13 +17,13 @@ from .bound import without_friction
 from .compose import compiled
 from .effects.base import REGISTRY
 from .ends import PATH, PATHS
-from .lanes import LANES
 from .model import SIDES, CompensationRope
 from .parameters import Base
-from .slots import DECLARED, ELEMENT, HEIGHT, PIT, RHO, R, slot
+from .slots import ALPHA, DECLARED, ELEMENT, HEIGHT, PIT, RHO, R, slot
 from .standing import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
 from .state import Array
-from .tangent import BY_HAND, CHANGED, DIFFERENCED, ENDS_STEP, OWN
+from .tangent import BEGUN, BY_HAND, CHANGED, DIFFERENCED, ENDS_STEP
+from .vector import LANES
 from .words import require_fine
 
 Direction = Mapping[str, float]
@@ -42,58 +42,62 @@ class SensitiveRope:
         self.rope = CompensationRope(model)
         self.names = tuple(directions)
         p, count = self.rope.p, len(directions)
-        self._dp = np.array([parameter_change(self.rope, one) for one in directions.values()]).reshape(count, p.size)
+        self._toward = np.array([parameter_change(self.rope, one) for one in directions.values()]).reshape(count, p.size)
         self._at = np.array([_replaced(p, (at or {}).get(name, {})) for name in self.names]).reshape(count, p.size)
-        self._limit = np.array([_limit(p, one) for one in self._dp])
-        self._way = np.array([_way(p, one) for one in self._dp], float)
+        self._limit = np.array([_limit(p, one) for one in self._toward])
+        self._way = np.array([_way(p, one) for one in self._toward], float)
+        self._blocks = -(-count // LANES)
+        self._motion = {name: np.zeros((self._blocks, self.rope.n + 1, 2, LANES)) for name in ("dq", "dv", "da", "dc")}
+        self._history = np.zeros((count, self.rope._do.scalars["state_size"]))
         self._arrays = self._memory_of_kernels()
-        shapes = dict.fromkeys(("dq", "dv", "da", "df"), 2 * (self.rope.n + 1)) | {"dh": self.rope._do.scalars["state_size"]}
-        self.dq, self.dv, self.da, self.df, self.dh = (self._arrays[name].reshape(count, size) for name, size in shapes.items())
         names = ("advance_tangent", "hang_again", "differentiate", "look")
         self._advance, self._hang, self._differentiate, self._look = (self._bind(name) for name in names)
 
     def _memory_of_kernels(self) -> dict[str, Array]:
         """The rope's own arrays, and those of all directions and of what is differenced."""
-        do, count, m = self.rope._do, len(self.names), self.rope.n + 1
-        moving, padded, states = do.moving, -(-count // LANES) * LANES, do.moving["h0"].size
-        motions = {name: np.zeros(count * 2 * m) for name in ("dq", "dv", "da", "df")}
-        scratch = {"D": np.zeros(padded * 2 * m), "rows": np.zeros(padded * 2 * m), "dh": np.zeros(count * do.scalars["state_size"])}
-        scratch |= {name: np.zeros(states) for name in ("hp", "hi", "hb", "hd")} | {"moves": np.zeros(2 * m), "f1": np.zeros(2 * m), "fc": np.zeros(2 * m)}
-        scratch |= {"w1": np.zeros(do.w.size), "e0": np.zeros(2 * m), "lift": np.zeros(count), "path1": np.zeros(PATHS * PATH)}
-        scratch |= {"p1": self.rope.p.copy(), "smooth1": self.rope.p.copy(), "dpath": self._end_paths()}
+        do, count, m, p = self.rope._do, len(self.names), self.rope.n + 1, self.rope.p
+        sizes = dict.fromkeys(("hp", "hi", "hb", "hd"), do.moving["h0"].size) | dict.fromkeys(("moves", "e0", "f1", "fc"), 2 * m)
+        sizes |= {"w1": do.w.size, "lift": count, "path1": PATHS * PATH, "p1": p.size, "smooth1": p.size}
+        sizes |= {"D": self._blocks * 2 * m * LANES, "glances": len(self.rope.model.sensors) * count}
+        own = {name: np.zeros(size) for name, size in sizes.items()} | {"at": self._at, "toward": self._toward, "dh": self._history}
+        own |= {"limit": self._limit, "way": self._way, "dp": in_lanes(self._toward), "dpath": self._end_paths()}
+        own |= {"guided": np.array([_guides(p, one) for one in self._toward], float)}
         sensors = self.rope.model.sensors
-        scratch |= {"glances": np.zeros(len(sensors) * count), "depths": np.array([-one.height for one in sensors])}
-        scratch |= {"sides": np.array([SIDES[one.side] for one in sensors], float)}
-        own = {"dp": self._dp.ravel(), "at": self._at.ravel(), "limit": self._limit, "way": self._way}
-        return moving | motions | scratch | own
+        own |= {"depths": np.array([-one.height for one in sensors]), "sides": np.array([SIDES[one.side] for one in sensors], float)}
+        return do.moving | {name: array.reshape(-1) for name, array in (own | self._motion).items()}
 
     def _end_paths(self) -> Array:
         """How the ends' paths move with the directions: with the radius, as they hang over the sheave's sides."""
         paths = np.zeros((len(self.names), PATHS, PATH))
-        paths[:, 3, 0] = paths[:, 3, 3] = self._dp[:, R]
+        paths[:, 3, 0] = paths[:, 3, 3] = self._toward[:, R]
         paths[:, 1] = -paths[:, 3]
-        return paths.ravel()
+        return paths
 
     def _bind(self, name: str) -> Any:
         entry = compiled()[name]
-        own = self.rope._do.scalars | {"directions": len(self.names), "parameters": self.rope.p.size}
+        own = self.rope._do.scalars | {"directions": len(self.names), "blocks": self._blocks, "parameters": self.rope.p.size}
         own |= {"sensors": len(self.rope.model.sensors)}
         call = entry.bind(**{key: array for key, array in self._arrays.items() if key in entry.names})
         fixed = {key: value for key, value in own.items() if key in entry.names}
         return lambda **scalars: call(**fixed, **scalars)
+
+    def _of_node(self, name: str, i: int, component: int) -> Array:
+        """One number of all directions: that of a node, or of the sheave where i is the number of nodes."""
+        array = self._arrays["D"].reshape(self._motion["dq"].shape) if name == "D" else self._motion[name]
+        return array[:, i, component].reshape(-1)[: len(self.names)].copy()
 
     # -- at rest ---------------------------------------------------------------------------------
 
     def settle(self, car: float, counterweight: float, outward: tuple[float, float] = (0.0, 0.0), time: float = 0.0) -> None:
         """Hang the rope at rest, as `CompensationRope.settle`, and find how that shape answers each direction."""
         self.rope.settle(car, counterweight, outward, time)
-        for array in (self.dq, self.dv, self.da, self.df, self.dh):
+        for array in (*self._motion.values(), self._history):
             array[:] = 0.0
         for k in range(len(self.names)):
-            self.dq[k], self.dh[k] = self._sag(k)
-        if self.names:
-            self._differentiate(t=time)
-            self.df[:] = self._arrays["D"][: self.df.size].reshape(self.df.shape)
+            change, self._history[k] = self._sag(k)
+            self._motion["dq"][k // LANES, :, :, k % LANES] = change.reshape(2, -1).T
+        self._differentiate(t=time)
+        self._motion["dc"][:] = self.rope.p[ALPHA] * self._arrays["D"].reshape(self._motion["dc"].shape)
 
     def _sag(self, k: int) -> tuple[Array, Array]:
         """Change of the shape at rest and of its history along direction k, by central differences.
@@ -105,19 +109,18 @@ class SensitiveRope:
         if moved > 0.0:
             step = min(self._limit[k], step * SAG / moved)
         (q, h), (q1, h1) = self._rest(k, -step), self._rest(k, step)
-        return (q1 - q) / (2.0 * step), 0.5 * (h + h1) if self._way[k] == OWN else (h1 - h) / (2.0 * step)
+        return (q1 - q) / (2.0 * step), 0.5 * (h + h1) if self._way[k] == BEGUN else (h1 - h) / (2.0 * step)
 
     def _rest(self, k: int, step: float) -> tuple[Array, Array]:
         """Shape and history of the rope at rest a step along direction k."""
         a, state = self._arrays, self.rope.state
-        a["p1"][:] = self._at[k] + step * self._dp[k]
+        a["p1"][:] = self._at[k] + step * self._toward[k]
         a["smooth1"][:] = without_friction(a["p1"])
         a["path1"][:] = still(self.rope._do.u, self.rope.p[R]) + step * a["dpath"].reshape(-1, PATHS * PATH)[k]
         a["q"][:] = state.q
         if self._hang(t=float(state.time[0])) < 0.0:
             raise SimulationError(f"direction {self.names[k]}: no shape at rest was found beside the rope's own")
-        kept = a["hi"][: self.dh.shape[1]].copy() if self._way[k] >= CHANGED else np.zeros(self.dh.shape[1])
-        return a["q"].copy(), kept
+        return a["q"].copy(), a["hi"][: self._history.shape[1]].copy()
 
     # -- in motion -------------------------------------------------------------------------------
 
@@ -130,6 +133,7 @@ class SensitiveRope:
         self.rope._do.path[:] = path
         if path_changes is not None:
             self._arrays["dpath"][:] = np.asarray(path_changes, float).ravel()
+            self._arrays["guided"][:] = 1.0
         require_fine(self._advance(dt=dt), self.rope._do.told)
 
     # -- what it shows ---------------------------------------------------------------------------
@@ -137,40 +141,49 @@ class SensitiveRope:
     def lateral_displacement(self) -> Array:
         """Derivatives of what the sensors of the model see [m per direction]: (sensors, directions)."""
         self._look()
-        return self._arrays["glances"].reshape(len(self.rope.model.sensors), len(self.names)) - self._dp[:, R]
+        return self._arrays["glances"].reshape(len(self.rope.model.sensors), len(self.names)) - self._toward[:, R]
 
     def sheave(self) -> dict[str, Array]:
         """Derivatives of the sheave's motion, by the names of `CompensationRope.sheave`: (directions,)."""
         n = self.rope.n
         return {
-            "sheave_displacement": self._dp[:, PIT] - self.dq[:, n],
-            "sheave_velocity": -self.dv[:, n],
-            "sheave_angle": self.dq[:, 2 * n + 1].copy(),
-            "sheave_angular_velocity": self.dv[:, 2 * n + 1].copy(),
+            "sheave_displacement": self._toward[:, PIT] - self._of_node("dq", n, 0),
+            "sheave_velocity": -self._of_node("dv", n, 0),
+            "sheave_angle": self._of_node("dq", n, 1),
+            "sheave_angular_velocity": self._of_node("dv", n, 1),
         }
 
     def forces(self) -> dict[str, Array]:
         """Derivatives of the forces on sheave and ends, by the names of `CompensationRope.outputs`: (directions,)."""
-        n, p = self.rope.n, self.rope.p
+        n, p, dp, a = self.rope.n, self.rope.p, self._toward, self.rope.state.a
         self._differentiate(t=float(self.rope.state.time[0]))
-        f = self._arrays["D"][: self.df.size].reshape(self.df.shape)
-        half, dhalf = 0.5 * p[RHO] * p[ELEMENT], 0.5 * (self._dp[:, RHO] * p[ELEMENT] + p[RHO] * self._dp[:, ELEMENT])
-        ends = {name: f[:, i] - half * self.da[:, i] - dhalf * self.rope.state.a[i] for name, i in (("car", 0), ("counterweight", n - 1))}
-        return {"sheave_force": -self._arrays["lift"], **{f"{name}_end_tension": value for name, value in ends.items()}}
+        half, dhalf = 0.5 * p[RHO] * p[ELEMENT], 0.5 * (dp[:, RHO] * p[ELEMENT] + p[RHO] * dp[:, ELEMENT])
+        tensions = {
+            f"{name}_end_tension": self._of_node("D", i, 0) - half * self._of_node("da", i, 0) - dhalf * a[i]
+            for name, i in (("car", 0), ("counterweight", n - 1))
+        }
+        return {"sheave_force": -self._arrays["lift"], **tensions}
 
     # -- state -----------------------------------------------------------------------------------
 
     def to_bytes(self) -> bytes:
         """The rope's state and all sensitivities."""
-        return self.rope.state.to_bytes() + b"".join(one.tobytes() for one in (self.dq, self.dv, self.da, self.df, self.dh))
+        return self.rope.state.to_bytes() + b"".join(one.tobytes() for one in (*self._motion.values(), self._history))
 
     def from_bytes(self, data: bytes) -> None:
         """Restore what `to_bytes` gave for the same model and directions."""
         at = len(self.rope.state.to_bytes())
         self.rope.state.from_bytes(data[:at])
-        for one in (self.dq, self.dv, self.da, self.df, self.dh):
+        for one in (*self._motion.values(), self._history):
             one[:] = np.frombuffer(data, np.float64, one.size, at).reshape(one.shape)
             at += one.nbytes
+
+
+def in_lanes(rows: Array) -> Array:
+    """Rows of numbers as blocks of LANES rows, number by number (see `lanes`); rows of zeros fill the last block."""
+    padded = np.zeros((-(-len(rows) // LANES) * LANES, rows.shape[1]))
+    padded[: len(rows)] = rows
+    return padded.reshape(-1, LANES, rows.shape[1]).swapaxes(1, 2).ravel()
 
 
 def still(u: Array, radius: float) -> Array:
@@ -211,18 +224,30 @@ def _limit(p: Array, dp: Array) -> float:
 def _way(p: Array, dp: Array) -> int:
     """How forces are differentiated along dp (see `tangent`): what acts decides.
 
-    An effect with history is in the model when its first quantity is.
+    An effect with history acts when its first quantity does.
     """
-    ways = [BY_HAND]
-    for name, effect in REGISTRY.items():
-        slots = [slot(f"effects.{name}.{one.name}") for one in quantities(effect)]
-        acts = any(p[at] != DECLARED[f"effects.{name}.{one.name}"].neutral for at, one in zip(slots, quantities(effect), strict=True))
-        touched = bool(dp[slots].any())
-        if {"forces", "moments"} & set(effect.hooks) and (acts or touched):
-            ways.append(DIFFERENCED)
-        first = next(quantities(effect))
-        if effect.states and p[slots[0]] != DECLARED[f"effects.{name}.{first.name}"].neutral:
-            return CHANGED
-        if effect.states and dp[slots[0]]:
-            ways.append(OWN)
-    return max(ways)
+    acting = [name for name in REGISTRY if _acts(p, name)]
+    pushing = [name for name, effect in REGISTRY.items() if {"forces", "moments"} & set(effect.hooks)]
+    if any(REGISTRY[name].states for name in acting):
+        return CHANGED
+    if set(acting) & set(pushing):
+        return DIFFERENCED
+    return BEGUN if any(_touched(dp, name) for name in pushing) else BY_HAND
+
+
+def _guides(p: Array, dp: Array) -> bool:
+    """Whether the ends move along dp: with the radius, and where an effect moves them."""
+    return bool(dp[R]) or any(_touched(dp, name) or _acts(p, name) for name, effect in REGISTRY.items() if "ends" in effect.hooks)
+
+
+def _keys(effect: str) -> list[str]:
+    names = [f"effects.{effect}.{one.name}" for one in quantities(REGISTRY[effect])]
+    return names[:1] if REGISTRY[effect].states else names
+
+
+def _acts(p: Array, effect: str) -> bool:
+    return any(p[slot(key)] != DECLARED[key].neutral for key in _keys(effect))
+
+
+def _touched(dp: Array, effect: str) -> bool:
+    return any(dp[slot(key)] != 0.0 for key in _keys(effect))

@@ -1,25 +1,20 @@
 """Directional derivative of the forces: how the right-hand sides of eq. (1) and (2) answer a small move.
 
-    D = lim [f(q + e dq, v + e dv, p + e dp, history + e dhistory) - f(q, v, p, history)] / e
+    D = lim [f(q + e dq, v + e dv, p + e dp) - f(q, v, p)] / e
 
-Tension, bending, damping and weight are differentiated by hand (`rope_slope`); contact by differences among
-the few nodes near the groove (`contact_slope`). Where an effect adds forces or moments of its own, all is differenced
-(`forces_on`): then segments are moved to first order from where they are, since their elongation, some 1e-5 of
-their length, is itself a difference of positions of tens of metres.
+Tension, bending, damping and weight are differentiated by hand, for LANES directions at a time and in one sweep
+along the rope; what happens at the groove, by differences (`contact_slope`). The parameters' changes dp
+have a lane for each direction as well: quantity j of a block at (parameters block + j) LANES.
 """
 
 from .contact import near, touch_piece
-from .elastica import bend, sum_forces
-from .hooks import all_forces, all_groove, all_moments
-from .jit import contracted, kernel
+from .hooks import all_groove
+from .jit import kernel
 from .slots import CA, CB, CE, EA, EI, ELEMENT, RHO, G, M
+from .vector import LANES, put, take
 from .work import (
-    BEND_RATE, CURVATURE, ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, FX, FY, INVERSE, LAST, MOMENT, NORMAL_LOSS, SHEAR, SPIN, TENSION,
-    TX, TY,
+    BEND_RATE, CURVATURE, ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, INVERSE, LAST, NORMAL_LOSS, SHEAR, SPIN, TENSION, TX, TY,
 )  # fmt: skip
-
-# Where changes stand in a workspace of their own: of a segment's direction [rad] and of its length [m].
-TILT, LONGER = TX, TY
 
 
 @kernel
@@ -32,75 +27,103 @@ def elongations(n, p, v, w, e0):
         e0[e] = (w[TENSION * m + e] * l - p[CA] * e0[m + e]) * per_ea
 
 
-@contracted
-def stretch_slope(n, p, w, e0, dp, d, b, dq, dv, W):
-    """Changes of each segment's direction, length, tension and spin, from t and n of the segment:
-
-    dphi = n . dq' / L,  dL = t . dq',  rate = t . v',
-    dT = (EA (dL - dl) + dEA (L - l) + c_A (t . dv' + n . dq' spin) + dc_A rate - T dl) / l,
-    dspin = (n . dv' - dphi rate - spin dL) / L,
-
-    a prime being the difference of the segment's nodes. Directions begin at d in dp and at b in dq and dv.
-    """
-    m, per_l = n + 1, 1.0 / p[ELEMENT]
-    ea, ca, dea, dca, shorter = p[EA] * per_l, p[CA] * per_l, dp[d + EA] * per_l, dp[d + CA] * per_l, -dp[d + ELEMENT] * per_l
-    unloaded = p[EA] * shorter
-    for e in range(n - 1):
-        tx, ty, inverse, spin = w[TX * m + e], w[TY * m + e], w[INVERSE * m + e], w[SPIN * m + e]
-        ax, ay = dq[b + e + 1] - dq[b + e], dq[b + m + e + 1] - dq[b + m + e]
-        bx, by = dv[b + e + 1] - dv[b + e], dv[b + m + e + 1] - dv[b + m + e]
-        along, across = tx * ax + ty * ay, tx * ay - ty * ax
-        tilt = across * inverse
-        W[TILT * m + e] = tilt
-        W[LONGER * m + e] = along
-        faster = tx * bx + ty * by + across * spin
-        W[TENSION * m + e] = ea * along + ca * faster + dea * e0[e] + dca * e0[m + e] + shorter * w[TENSION * m + e] + unloaded
-        W[SPIN * m + e] = (tx * by - ty * bx - tilt * e0[m + e] - spin * along) * inverse
-
-
-@contracted
-def bend_slope(n, p, w, dp, d, W):
-    """Change of each moment: dM = EI dkappa + dEI kappa + c_B dkappa' + dc_B kappa', a prime being the rate."""
-    m, per_l = n + 1, 1.0 / p[ELEMENT]
-    ei, cb, shorter = p[EI] * per_l, p[CB] * per_l, -dp[d + ELEMENT] * per_l
-    dei, dcb = dp[d + EI] + p[EI] * shorter, dp[d + CB] + p[CB] * shorter
-    for i in range(1, n - 1):
-        kappa, turning = w[CURVATURE * m + i], w[BEND_RATE * m + i]
-        bent, faster = W[TILT * m + i] - W[TILT * m + i - 1], W[SPIN * m + i] - W[SPIN * m + i - 1]
-        W[MOMENT * m + i] = ei * bent + cb * faster + dei * kappa + dcb * turning
-
-
-@contracted
-def sum_slope(n, p, v, w, dp, d, b, dv, W, D):
-    """Set row b of D to the change of tension, bending, damping and weight on each node.
-
-    With F = T t + Q n of a segment, dF = (dT - Q dphi) t + (dQ + T dphi) n.
-    """
-    m, l = n + 1, p[ELEMENT]
-    for e in range(n - 1):
-        tx, ty, inverse = w[TX * m + e], w[TY * m + e], w[INVERSE * m + e]
-        tilt, shear = W[TILT * m + e], w[SHEAR * m + e]
-        dshear = (W[MOMENT * m + e] - W[MOMENT * m + e + 1] - shear * W[LONGER * m + e]) * inverse
-        along, across = W[TENSION * m + e] - shear * tilt, dshear + w[TENSION * m + e] * tilt
-        W[FX * m + e] = along * tx - across * ty
-        W[FY * m + e] = along * ty + across * tx
-    weight = dp[d + RHO] * l * p[G] + p[RHO] * dp[d + ELEMENT] * p[G] + p[RHO] * l * dp[d + G]
-    drag, ddrag = p[CE] * l, dp[d + CE] * l + p[CE] * dp[d + ELEMENT]
-    for i in range(1, n - 1):
-        D[b + i] = W[FX * m + i] - W[FX * m + i - 1] + weight - ddrag * v[i] - drag * dv[b + i]
-    for i in range(1, n - 1):
-        D[b + m + i] = W[FY * m + i] - W[FY * m + i - 1] - ddrag * v[m + i] - drag * dv[b + m + i]
-    D[b], D[b + m] = W[FX * m] + 0.5 * weight, W[FY * m]
-    D[b + n - 1], D[b + m + n - 1] = -W[FX * m + n - 2] + 0.5 * weight, -W[FY * m + n - 2]
-    D[b + n], D[b + m + n] = dp[d + M] * p[G] + p[M] * dp[d + G], 0.0
+@kernel
+def ahead(at, h, half, dq, dv, da):
+    """Predicted change of position and velocity where the three arrays have their entry `at`."""
+    v, a = take(dv, at), take(da, at)
+    return take(dq, at) + h * v + half * a, v + h * a
 
 
 @kernel
-def rope_slope(n, p, v, w, e0, dp, d, b, dq, dv, W, D):
-    """Set row b of D to how tension, bending, damping and weight answer; w and e0 belong to the present state."""
-    stretch_slope(n, p, w, e0, dp, d, b, dq, dv, W)
-    bend_slope(n, p, w, dp, d, W)
-    sum_slope(n, p, v, w, dp, d, b, dv, W, D)
+def segment_slope(m, w, e0, e, ea, ca, dea, dca, shorter, unloaded, ax, ay, bx, by):
+    """Changes of a segment's direction [rad], length, tension and spin, from those between its nodes.
+
+    With t and n of the segment, and (a, b) the changes of position and velocity between its nodes,
+
+        dphi = n . a / L,  dL = t . a,
+        dT = (EA (dL - dl) + dEA (L - l) + c_A (t . b + n . a spin) + dc_A rate - T dl) / l,
+        dspin = (n . b - dphi rate - spin dL) / L.
+
+    ea, ca, dea, dca are per l; `shorter` is -dl / l and `unloaded` is EA times that.
+    """
+    tx, ty, inverse, spin, rate = w[TX * m + e], w[TY * m + e], w[INVERSE * m + e], w[SPIN * m + e], e0[m + e]
+    along, across = tx * ax + ty * ay, tx * ay - ty * ax
+    tilt = inverse * across
+    tension = ea * along + ca * (tx * bx + ty * by + spin * across) + e0[e] * dea + rate * dca + w[TENSION * m + e] * shorter + unloaded
+    return tilt, along, tension, inverse * (tx * by - ty * bx - rate * tilt - spin * along)
+
+
+@kernel
+def moment_slope(m, w, i, ei, cb, dei, dcb, bent, faster):
+    """Change of a node's moment, dM = EI dkappa + dEI kappa + c_B dkappa' + dc_B kappa', a prime being the rate.
+
+    `bent` and `faster` are the changes of the angle between its segments and of that angle's rate; ei and cb are per l, and
+    dei and dcb have taken in how curvature answers l.
+    """
+    return ei * bent + cb * faster + w[CURVATURE * m + i] * dei + w[BEND_RATE * m + i] * dcb
+
+
+@kernel
+def force_slope(m, w, e, tilt, longer, tension, moments):
+    """Change of a segment's force F = T t + Q n: dF = (dT - Q dphi) t + (dQ + T dphi) n.
+
+    `moments` is the change of the moments' difference over the segment, of which Q is the share per length.
+    """
+    tx, ty, shear = w[TX * m + e], w[TY * m + e], w[SHEAR * m + e]
+    along = tension - shear * tilt
+    across = w[INVERSE * m + e] * (moments - shear * longer) + w[TENSION * m + e] * tilt
+    return tx * along - ty * across, ty * along + tx * across
+
+
+@kernel
+def weight_slope(p, dp, d):
+    """Changes of a node's weight and of its external damping, by the parameters."""
+    rho, l = take(dp, d + RHO * LANES), take(dp, d + ELEMENT * LANES)
+    weight = (p[ELEMENT] * p[G]) * rho + (p[RHO] * p[G]) * l + (p[RHO] * p[ELEMENT]) * take(dp, d + G * LANES)
+    return weight, p[ELEMENT] * take(dp, d + CE * LANES) + p[CE] * l
+
+
+@kernel
+def rope_slope(n, p, v, w, e0, dp, d, base, h, dq, dv, da, D):
+    """Set a block of D to the changes of tension, bending, damping and weight, h ahead of (dq, dv, da).
+
+    w and e0 belong to the present state. The sweep goes from node to node; each turn ends with the forces on the
+    node before the last.
+    """
+    m, half, drag, per_l = n + 1, 0.5 * h * h, p[CE] * p[ELEMENT], 1.0 / p[ELEMENT]
+    ea, ca, ei, cb = p[EA] * per_l, p[CA] * per_l, p[EI] * per_l, p[CB] * per_l
+    weight, ddrag = weight_slope(p, dp, d)
+    longer = take(dp, d + ELEMENT * LANES)
+    dea, dca, shorter, unloaded = per_l * take(dp, d + EA * LANES), per_l * take(dp, d + CA * LANES), -per_l * longer, -ea * longer
+    dei, dcb = take(dp, d + EI * LANES) - ei * longer, take(dp, d + CB * LANES) - cb * longer
+    x, vx = ahead(base, h, half, dq, dv, da)
+    y, vy = ahead(base + LANES, h, half, dq, dv, da)
+    x1, vx1 = ahead(base + 2 * LANES, h, half, dq, dv, da)
+    y1, vy1 = ahead(base + 3 * LANES, h, half, dq, dv, da)
+    tilt, longer, tension, spin = segment_slope(m, w, e0, 0, ea, ca, dea, dca, shorter, unloaded, x1 - x, y1 - y, vx1 - vx, vy1 - vy)
+    moment, fx, fy = 0.0 * x, 0.0 * x, 0.0 * x
+    for e in range(1, n - 1):
+        at = base + 2 * LANES * e
+        x, y, vx0, vy0, vx, vy = x1, y1, vx, vy, vx1, vy1
+        x1, vx1 = ahead(at + 2 * LANES, h, half, dq, dv, da)
+        y1, vy1 = ahead(at + 3 * LANES, h, half, dq, dv, da)
+        tilt1, longer1, tension1, spin1 = segment_slope(m, w, e0, e, ea, ca, dea, dca, shorter, unloaded, x1 - x, y1 - y, vx1 - vx, vy1 - vy)
+        moment1 = moment_slope(m, w, e, ei, cb, dei, dcb, tilt1 - tilt, spin1 - spin)
+        fx1, fy1 = force_slope(m, w, e - 1, tilt, longer, tension, moment - moment1)
+        put(D, at - 2 * LANES, fx1 - fx + weight - v[e - 1] * ddrag - drag * vx0)
+        put(D, at - LANES, fy1 - fy - v[m + e - 1] * ddrag - drag * vy0)
+        if e == 1:
+            put(D, base, fx1 + 0.5 * weight)
+            put(D, base + LANES, fy1)
+        tilt, longer, tension, spin, moment, fx, fy = tilt1, longer1, tension1, spin1, moment1, fx1, fy1
+    fx1, fy1 = force_slope(m, w, n - 2, tilt, longer, tension, moment)
+    at = base + 2 * LANES * (n - 2)
+    put(D, at, fx1 - fx + weight - v[n - 2] * ddrag - drag * vx)
+    put(D, at + LANES, fy1 - fy - v[m + n - 2] * ddrag - drag * vy)
+    put(D, at + 2 * LANES, 0.5 * weight - fx1)
+    put(D, at + 3 * LANES, 0.0 * fy1 - fy1)
+    put(D, at + 4 * LANES, p[G] * take(dp, d + M * LANES) + p[M] * take(dp, d + G * LANES))
+    put(D, at + 5 * LANES, 0.0 * fy1)
 
 
 @kernel
@@ -124,48 +147,25 @@ def contact_alone(n, p, q, v, f, touch, Z):
 
 
 @kernel
-def contact_slope(n, p1, e, b, q0, v0, dq, dv, q, v, f, f0, touch, Z, D):
-    """Add to row b of D how the contact answers, where its forces f0 are known: by a difference e."""
+def move_node(m, i, e, at, h, q0, v0, dq, dv, da, q, v):
+    """Set q and v of node i to where they are a step e along the direction whose entries begin at `at`, h ahead."""
+    for c in range(2):
+        k, j = at + (2 * i + c) * LANES, c * m + i
+        q[j] = q0[j] + e * (dq[k] + h * (dv[k] + 0.5 * h * da[k]))
+        v[j] = v0[j] + e * (dv[k] + h * da[k])
+
+
+@kernel
+def contact_slope(n, p1, e, at, h, q0, v0, dq, dv, da, q, v, f, f0, touch, Z, D):
+    """Add to D how the contact answers, where its forces f0 are known: by a difference e, with parameters p1 a step e away."""
     m, first, last = n + 1, int(touch[FIRST]) - 1, int(touch[LAST]) + 1
-    for c in (0, m):
-        for i in range(first, last + 1):
-            q[c + i], v[c + i] = q0[c + i] + e * dq[b + c + i], v0[c + i] + e * dv[b + c + i]
-        q[c + n], v[c + n] = q0[c + n] + e * dq[b + c + n], v0[c + n] + e * dv[b + c + n]
+    for i in range(first, last + 1):
+        move_node(m, i, e, at, h, q0, v0, dq, dv, da, q, v)
+    move_node(m, n, e, at, h, q0, v0, dq, dv, da, q, v)
     contact_alone(n, p1, q, v, f, touch, Z)
     per_e = 1.0 / e
-    for c in (0, m):
-        for i in range(first, last + 1):
-            D[b + c + i] += (f[c + i] - f0[c + i]) * per_e
-        D[b + c + n] += (f[c + n] - f0[c + n]) * per_e
-
-
-@kernel
-def stretch_on(n, p, l0, w0, e0, moves, v, w):
-    """What `elastica.stretch` gives at q + moves, to first order in these; w0 and e0 belong to q and to elements of length l0."""
-    m, l = n + 1, p[ELEMENT]
-    longer, per_l = l - l0, 1.0 / l
-    for e in range(n - 1):
-        tx, ty, inverse = w0[TX * m + e], w0[TY * m + e], w0[INVERSE * m + e]
-        ax, ay = moves[e + 1] - moves[e], moves[m + e + 1] - moves[m + e]
-        vx, vy = v[e + 1] - v[e], v[m + e + 1] - v[m + e]
-        along, tilt = tx * ax + ty * ay, (tx * ay - ty * ax) * inverse
-        cx, cy, shorter = tx - tilt * ty, ty + tilt * tx, inverse - along * inverse * inverse
-        w[TX * m + e] = cx
-        w[TY * m + e] = cy
-        w[INVERSE * m + e] = shorter
-        w[TENSION * m + e] = (p[EA] * (e0[e] + along - longer) + p[CA] * (cx * vx + cy * vy)) * per_l
-        w[SPIN * m + e] = (cx * vy - cy * vx) * shorter
-
-
-@kernel
-def forces_on(n, t, p, l0, w0, e0, moves, q, v, w, f, touch, h0, h1, power, Z):
-    """What `dynamics.forces` gives at q, which is the place of w0 and e0 changed by small moves."""
-    m = n + 1
-    stretch_on(n, p, l0, w0, e0, moves, v, w)
-    bend(n, p, w)
-    all_moments(n, p, w, h0, h1, power)
-    sum_forces(n, p, v, w, f)
-    f[n] = p[M] * p[G]
-    f[m + n] = 0.0
-    touch_again(n, p, q, v, f, touch, Z)
-    all_forces(n, t, p, q, v, w, f, power)
+    for i in range(first, last + 1):
+        D[at + 2 * LANES * i] += (f[i] - f0[i]) * per_e
+        D[at + (2 * i + 1) * LANES] += (f[m + i] - f0[m + i]) * per_e
+    D[at + 2 * LANES * n] += (f[n] - f0[n]) * per_e
+    D[at + (2 * n + 1) * LANES] += (f[m + n] - f0[m + n]) * per_e

@@ -1,0 +1,103 @@
+"""From a model that fails to one that does not: diagnose, add, and again, until nothing is missing; then prune."""
+
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Any
+
+from comprope.rope.effects import RopeModel
+
+from .add import Added, Ground, Say, added, fit_new, prepare
+from .campaign import Campaign
+from .compare import Comparison, compare
+from .diagnose import Diagnosis, diagnose
+from .fit import Fitted
+from .hypotheses import NUISANCES
+from .plain import plain
+from .point import Point
+from .present import grouped, name_of
+from .prune import Without, prune
+
+MOST = 4  # effects that a journey adds
+
+
+@dataclass(frozen=True)
+class Step:
+    """A stop on the way: what was added last, errors on fit and validate runs there, and the misfit per datum."""
+
+    name: str
+    fit: float
+    validate: float
+    misfit: float
+
+
+@dataclass(frozen=True)
+class Journey:
+    """All stops, the last diagnosis, what pruning took out, fits without each effect, and the final model."""
+
+    steps: tuple[Step, ...]
+    last: Diagnosis
+    pruned: tuple[str, ...]
+    without: tuple[Without, ...]
+    added: Added
+
+    @property
+    def model(self) -> RopeModel:
+        """The final model."""
+        return self.added.model
+
+    def bought(self) -> list[tuple[str, float, float]]:
+        """What each step bought: its share of the whole fall of the error, on fit and on validate runs."""
+        first, last = self.steps[0], self.steps[-1]
+        return [
+            (b.name, _share(a.fit - b.fit, first.fit - last.fit), _share(a.validate - b.validate, first.validate - last.validate))
+            for a, b in zip(self.steps[:-1], self.steps[1:], strict=True)
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Steps, shares and the final fit."""
+        found = {
+            "verdict_kind": self.last.kind, "effects": list(grouped(self.added.fitted.hypothesis, self.added.fitted.effect_coefficients)),
+            "steps": [{"name": s.name, "fit": s.fit, "validate": s.validate, "misfit_per_datum": s.misfit} for s in self.steps],
+            "bought": [{"name": name, "share": fit, "validate_share": held} for name, fit, held in self.bought()],
+            "pruned": list(self.pruned),
+            "without": {one.effect: one.fitted.misfit / max(len(self.last.problem.data), 1) for one in self.without},
+            **self.added.to_json(),
+        }  # fmt: skip
+        return plain(found)  # type: ignore[no-any-return]
+
+
+def _share(fall: float, whole: float) -> float:
+    return fall / whole if whole else float("nan")
+
+
+def journey(campaign: Campaign, executor: Executor, say: Say = lambda _: None, most: int = MOST) -> Journey:
+    """Add what is missing, one verdict after the other, until the model is adequate or nothing known helps."""
+    ground = prepare(campaign, executor, say)
+    before = compare(campaign, executor)
+    steps = [Step("as it stands", before.fit_nrmse, before.validate_nrmse, float("nan"))]
+    fitted: Fitted = ground.fitted
+    steps.append(_step(ground, "plant refitted", fitted, executor))
+    for _ in range(most + 1):
+        last = diagnose(campaign, executor, say, Point(effects=dict(fitted.point.effects)))
+        if last.verdict is None or len(steps) > most + 1:
+            break
+        new = last.ranking[0]
+        say(f"{new.hypothesis.effect}, with all others")
+        fitted = fit_new(ground, new.hypothesis, new.fitted.coefficients[len(NUISANCES) :], fitted)
+        steps.append(_step(ground, _name(last), fitted, executor))
+    names = set(grouped(fitted.hypothesis, fitted.effect_coefficients))
+    fitted, without = prune(ground, fitted, say)
+    kept = list(grouped(fitted.hypothesis, fitted.effect_coefficients))
+    whole = added(ground, " + ".join(kept) or "nothing", fitted, executor)
+    return Journey(tuple(steps), last, tuple(sorted(names - set(kept))), tuple(without), whole)
+
+
+def _step(ground: Ground, name: str, fitted: Fitted, executor: Executor) -> Step:
+    found: Comparison = compare(ground.campaign, executor, fitted.point)
+    return Step(name, found.fit_nrmse, found.validate_nrmse, fitted.misfit / max(len(ground.problem.data), 1))
+
+
+def _name(found: Diagnosis) -> str:
+    top = found.ranking[0].hypothesis
+    return " + ".join(name_of(part) for part in (top.parts or (top,)))
+

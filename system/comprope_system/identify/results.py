@@ -1,0 +1,135 @@
+"""What a diagnosis says, as JSON: verdict, ranking with errors before and after, and what the data cannot see."""
+
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Any
+
+from .compare import Comparison, compare
+from .diagnose import Candidate, Diagnosis
+from .errors_of import nrmse
+from .hypotheses import NUISANCES, Hypothesis
+from .plain import plain
+from .point import Point
+from .present import name_of, short_names
+from .remarks import remarks
+from .values import Value, plant_results, scale_of, set_by_runs
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A diagnosis with its comparisons: the model file as it stands, its plant refitted, and each refined candidate."""
+
+    diagnosis: Diagnosis
+    before: Comparison
+    refitted: Comparison
+    candidates: dict[int, Comparison]
+    remarks: tuple[str, ...]
+
+    @property
+    def best(self) -> Comparison:
+        """The comparison of what the verdict names, or of the model as it was, refitted."""
+        return self.candidates.get(0, self.refitted) if self.diagnosis.verdict else self.refitted
+
+
+def judge(diagnosis: Diagnosis, executor: Executor, base: Point | None = None) -> Judged:
+    """Replay what the diagnosis fitted on all runs, those held out too."""
+    campaign = diagnosis.campaign
+    before = compare(campaign, executor, base)
+    refitted = compare(campaign, executor, diagnosis.none.point)
+    candidates = {k: compare(campaign, executor, one.fitted.point) for k, one in enumerate(diagnosis.ranking) if one.refined}
+    found = Judged(diagnosis, before, refitted, candidates, ())
+    return Judged(diagnosis, before, refitted, candidates, tuple(remarks(campaign, found.best.predictions)))
+
+
+def to_json(judged: Judged) -> dict[str, Any]:
+    """The result as in the contract, with more beside it."""
+    diagnosis, count = judged.diagnosis, max(len(judged.diagnosis.problem.data), 1)
+    nominal = diagnosis.problem.data - diagnosis.problem.whitened(diagnosis.nominal)
+    found = {
+        "campaign": diagnosis.campaign.name,
+        "verdict": diagnosis.verdict,
+        "verdict_kind": diagnosis.kind,
+        "ranking": ranking(judged),
+        "indistinguishable": [list(pair) for pair in diagnosis.alike],
+        "probabilities": diagnosis.probabilities,
+        "misfit_per_datum": {"as_it_stands": float(nominal @ nominal) / count, "plant_refitted": diagnosis.none.misfit / count},
+        "errors": {
+            name: {"fit": one.fit_nrmse, "validate": one.validate_nrmse}
+            for name, one in (("as_it_stands", judged.before), ("plant_refitted", judged.refitted))
+        },
+        "plant": {key: one.to_json() for key, one in plant(diagnosis).items()},
+        "data": count,
+        "remarks": list(judged.remarks),
+    }  # fmt: skip
+    return plain(found)  # type: ignore[no-any-return]
+
+
+def ranking(judged: Judged) -> list[dict[str, Any]]:
+    """One entry for each effect, most probable first; several effects at once stand under the name of the first."""
+    found: dict[str, dict[str, Any]] = {}
+    for k, one in enumerate(judged.diagnosis.ranking):
+        entry = _entry(judged, k, one)
+        if entry["effect"] in found:
+            found[entry["effect"]]["probability"] += entry["probability"]
+        else:
+            found[entry["effect"]] = entry
+    return sorted(found.values(), key=lambda entry: -entry["probability"])
+
+
+def _entry(judged: Judged, k: int, one: Candidate) -> dict[str, Any]:
+    before = judged.before
+    after, held = errors_after(judged, k, one)
+    parts = effects_of(one.hypothesis)
+    values = one.hypothesis.parameters(one.fitted.effect_coefficients)
+    entry = {
+        "effect": parts[0], "probability": one.probability, "error_before": before.fit_nrmse, "error_after": after,
+        "validate_error_before": before.validate_nrmse, "validate_error_after": held,
+        "parameters": short_names(parts[0], values), "estimated": not one.refined, "misfit_per_datum": misfit(judged, one),
+        "visible_share": one.visible, "least_detectable": short_names(parts[0], one.least),
+    }  # fmt: skip
+    with_it = {name: short_names(name, values) for name in {key.split(".")[1] for key in values} - {parts[0]}}
+    return entry | ({"together_with": with_it} if with_it else {})
+
+
+def misfit(judged: Judged, one: Candidate) -> float:
+    """Weighed squared error per datum that an effect leaves: near 1, nothing but noise."""
+    return one.fitted.misfit / max(len(judged.diagnosis.problem.data), 1)
+
+
+def effects_of(hypothesis: Hypothesis) -> list[str]:
+    """The effects that act in a hypothesis, the first the one that explains most."""
+    return [part.effect for part in (hypothesis.parts or (hypothesis,))]
+
+
+def errors_after(judged: Judged, k: int, one: Candidate) -> tuple[float, float]:
+    """Errors with an effect on fit and validate runs; where it was not refined, in proportion to its misfit."""
+    if k in judged.candidates:
+        return nrmse_of_fit(judged, k), judged.candidates[k].validate_nrmse
+    share = (one.fitted.misfit / max(judged.diagnosis.none.misfit, 1e-300)) ** 0.5
+    return share * judged.refitted.fit_nrmse, share * judged.refitted.validate_nrmse
+
+
+def nrmse_of_fit(judged: Judged, k: int) -> float:
+    """Error of a refined candidate on the fit runs."""
+    campaign = judged.diagnosis.campaign
+    return nrmse(campaign, campaign.of_role("fit"), judged.candidates[k].predictions)
+
+
+def plant(diagnosis: Diagnosis) -> dict[str, Value]:
+    """The plant as refitted beside the verdict's effect, or alone."""
+    fitted = diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.none
+    return plant_results(diagnosis.campaign, fitted, scale_of(fitted, len(diagnosis.problem.data)))
+
+
+def biases(diagnosis: Diagnosis) -> list[tuple[str, Value, float]]:
+    """Plant parameters by key, with value and how many prior deviations they were moved, the most moved first."""
+    fitted = diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.none
+    values = plant(diagnosis)
+    moved = [(one.name, values[one.name], float(fitted.coefficients[k]) / one.prior) for k, one in enumerate(NUISANCES)]
+    replaced = set_by_runs(diagnosis.campaign)
+    return sorted((one for one in moved if one[0] not in replaced), key=lambda one: -abs(one[2]))
+
+
+def full_name(hypothesis: Hypothesis) -> str:
+    """The name under which `comprope add` takes an effect; an instrument's fault with its channel."""
+    return name_of((hypothesis.parts or (hypothesis,))[0])

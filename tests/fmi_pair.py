@@ -1,0 +1,269 @@
+"""An FMU and the model itself side by side: every call goes to both, and they must agree, bit for bit or in refusing it."""
+
+import math
+import random
+import shutil
+from collections.abc import Callable, Sequence
+from ctypes import byref
+from pathlib import Path
+from typing import Any
+
+from fmpy import extract, read_model_description
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import (
+    FMU2Slave,
+    calloc,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+    free,
+)
+
+from comprope.errors import CompropeError, InputError
+from comprope.fmi.engine import ModelInterface
+from comprope.fmi.run import Run
+
+class Oracle:
+    """What an instance should do: a `Run` that stays out of action after an error and, if `strict`, knows the order of calls."""
+
+    def __init__(self, interface: ModelInterface, strict: bool) -> None:
+        self.interface, self.strict = interface, strict
+        self.reset()
+
+    def reset(self) -> None:
+        self.run, self.phase = Run(self.interface), 0
+
+    def attempt(self, action: Callable[[], Any]) -> Any:
+        """What the action gives; `CompropeError` is noted as the real thing does."""
+        try:
+            return action()
+        except CompropeError as error:
+            self.run.failure = self.run.failure or str(error)
+            raise
+
+    def require(self, *phases: int) -> None:
+        if self.strict and self.phase not in phases:
+            raise InputError("not now")
+
+    def enter(self, phase: int, needed: int) -> None:
+        self.require(needed)
+        self.phase = phase
+
+
+class Pair:
+    """One instance of an FMU and its oracle. Each method makes a call; a disagreement is an `AssertionError`.
+
+    `status` is what the FMU returns for an error; `strict` says whether it minds the order of calls.
+    """
+
+    def __init__(self, fmu: Path, interface: ModelInterface, status: int = 3, strict: bool = True) -> None:
+        self.status = status
+        self.folder, self.description = extract(str(fmu)), read_model_description(str(fmu))
+        self.oracle, self.messages, self.states = Oracle(interface, strict), list[str](), list[tuple[Any, bytes, int]]()
+        self.references = {one.name: place for place, one in enumerate(interface.variables)}
+        self.calls = self.refusals = 0
+        self._instantiate()
+
+    def _instantiate(self) -> None:
+        self.instance = FMU2Slave(
+            guid=self.description.guid,
+            unzipDirectory=self.folder,
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            instanceName="pair",
+        )
+        self._callbacks = fmi2CallbackFunctions()
+        self._callbacks.logger = fmi2CallbackLoggerTYPE(self._hear)
+        self._callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+        self._callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+        self.instance.instantiate(callbacks=self._callbacks, loggingOn=True)
+
+    def _hear(self, _environment: Any, _name: bytes, status: int, _category: bytes, message: bytes) -> None:
+        self.messages.append(f"{status} {message.decode()}")
+
+    def both(self, call: Callable[[], Any], expected: Callable[[], Any]) -> Any:
+        """Make a call; returns what it gave and what the oracle gave, or None if both refused."""
+        self.calls += 1
+        self.messages.clear()
+        try:
+            answer = self.oracle.attempt(expected)
+        except CompropeError as error:
+            self._refused(call, error)
+            return None
+        return call(), answer
+
+    def _refused(self, call: Callable[[], Any], why: CompropeError) -> None:
+        self.refusals += 1
+        try:
+            call()
+        except FMICallException as error:
+            assert error.status == self.status, error
+            assert self.messages and self.messages[0].startswith(f"{self.status} "), self.messages
+        else:
+            raise AssertionError(f"accepted, though: {why}")
+
+    def free(self) -> None:
+        """Free the instance and its unpacked files."""
+        for state, _, _ in self.states:
+            self.instance.freeFMUState(state)
+        self.instance.freeInstance()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    # -- calls -----------------------------------------------------------------------------------
+
+    def renew(self) -> None:
+        """Free the instance, if it can with whatever states it has, and make another."""
+        while self.states and not self.oracle.strict:
+            self.forget(0)
+        self.instance.freeInstance()
+        self.states.clear()
+        self.oracle.reset()
+        self._instantiate()
+
+    def reset(self) -> None:
+        self.both(self.instance.reset, self.oracle.reset)
+
+    def plan(self, start: float, stop: float | None) -> None:
+        def expected() -> None:
+            self.oracle.require(0)
+            self.oracle.run.plan(start, stop)
+
+        self.both(lambda: self.instance.setupExperiment(startTime=start, stopTime=stop), expected)
+
+    def enter(self) -> None:
+        self.both(self.instance.enterInitializationMode, lambda: self.oracle.enter(1, 0))
+
+    def begin(self) -> None:
+        def expected() -> None:
+            self.oracle.require(1)
+            self.oracle.run.begin()
+            self.oracle.phase = 2
+
+        self.both(self.instance.exitInitializationMode, expected)
+
+    def terminate(self) -> None:
+        self.both(self.instance.terminate, lambda: self.oracle.enter(3, 2))
+
+    def step(self, dt: float, late: float = 0.0) -> None:
+        time = self.oracle.run.time + late
+
+        def expected() -> None:
+            self.oracle.require(0, 1, 2)
+            self.oracle.run.step(time, dt)
+
+        self.both(lambda: self.instance.doStep(time, dt), expected)
+
+    def put(self, names: Sequence[str], values: Sequence[float]) -> None:
+        """Set real values."""
+        references = [self.references[name] for name in names]
+
+        def expected() -> None:
+            self.oracle.require(0, 1, 2)
+            self.oracle.run.write("real", references, values)
+
+        self.both(lambda: self.instance.setReal(references, values), expected)
+
+    def switch(self, name: str, value: bool) -> None:
+        """Set a boolean value."""
+        reference = [self.references[name]]
+
+        def expected() -> None:
+            self.oracle.require(0, 1, 2)
+            self.oracle.run.write("boolean", reference, [value])
+
+        self.both(lambda: self.instance.setBoolean(reference, [value]), expected)
+
+    def read(self) -> None:
+        """Read every variable; outputs come last, so that a refusal of theirs is one of the others as well."""
+        for kind, getter in (("real", "Real"), ("integer", "Integer"), ("boolean", "Boolean")):
+            chosen = [place for place, one in enumerate(self.oracle.interface.variables) if one.kind == kind]
+            found = self.both(lambda get=getattr(self.instance, f"get{getter}"), chosen=chosen: get(chosen),
+                              lambda kind=kind, chosen=chosen: self.oracle.run.read(kind, chosen))  # fmt: skip
+            assert found is None or list(found[0]) == list(found[1])
+            assert found is None or all(math.isfinite(value) for value in found[0])
+
+    def read_nonsense(self, reference: int) -> None:
+        """Read by a reference that may not exist, as every type in turn."""
+        for kind in ("real", "integer", "boolean"):
+            getter = getattr(self.instance, f"get{kind.capitalize()}")
+            self.both(lambda getter=getter: getter([reference]), lambda kind=kind: self.oracle.run.read(kind, [reference]))
+
+    def save(self) -> None:
+        found = self.both(self.instance.getFMUState, lambda: self.oracle.run.save("one"))
+        self.states.append((*found, self.oracle.phase))
+
+    def restore(self, place: int, serialized: bool) -> None:
+        """Restore a saved state, if wanted from its bytes."""
+        if not self.states:
+            return
+        state, expected, phase = self.states[place % len(self.states)]
+        if serialized:
+            copy = self.instance.deserializeFMUState(self.instance.serializeFMUState(state))
+            self.both(lambda: self.instance.setFMUState(copy), lambda: self.oracle.run.restore(expected, "one"))
+            self.instance.freeFMUState(copy)
+        else:
+            self.both(lambda: self.instance.setFMUState(state), lambda: self.oracle.run.restore(expected, "one"))
+        self.oracle.phase = phase
+
+    def forget(self, place: int) -> None:
+        """Free a saved state."""
+        if self.states:
+            state, _, _ = self.states.pop(place % len(self.states))
+            self.instance.freeFMUState(state)
+
+    def start(self, values: dict[str, float]) -> None:
+        """From anywhere to a run that steps."""
+        self.reset()
+        self.plan(0.0, None)
+        self.put(list(values), list(values.values()))
+        self.enter()
+        self.begin()
+
+
+# A shaft of one metre, so that a call takes microseconds.
+SMALL = {
+    "shaft.height": 1.0, "shaft.pit": 0.6, "rope.element_length": 0.1, "sheave.radius": 0.4, "counterweight_position": 1.0,
+}  # fmt: skip
+STEPS = (0.01, 0.01, 0.01, 0.004, 0.013, 0.02, 0.0, -0.01, math.nan, math.inf, 1e300)
+ODD = (math.nan, math.inf, -math.inf, -1.0, 1e9, -1e300, 0.0)
+
+
+def random_call(pair: Pair, random: random.Random) -> None:
+    """One call of any kind; most make sense, so that runs get somewhere."""
+    if (pair.oracle.run.failure or pair.oracle.phase != 2) and random.random() < 0.3:
+        pair.start(SMALL)
+    kinds = [
+        (40, lambda: _move(pair, random)),
+        (20, lambda: pair.step(random.choice(STEPS[:6]))),
+        (12, pair.read),
+        (3, lambda: pair.start(SMALL)),
+        (4, pair.save),
+        (5, lambda: pair.restore(random.randrange(9), random.random() < 0.5)),
+        (3, lambda: pair.forget(random.randrange(9))),
+        (2, lambda: pair.step(random.choice(STEPS), random.choice((0.0, 0.0, 1.0, -0.01, math.nan)))),
+        (4, lambda: _set_any(pair, random)),
+        (1, lambda: pair.read_nonsense(random.choice((0, 5, 60, 70, 100, 2**32 - 1)))),
+        (1, lambda: pair.switch(random.choice(("derivative_inputs", "inputs_at_end")), random.random() < 0.5)),
+        (1, pair.enter), (1, pair.begin), (1, pair.terminate), (1, pair.reset), (1, pair.renew),
+        (1, lambda: pair.plan(random.choice((0.0, 5.0)), random.choice((None, 5.1)))),
+    ]  # fmt: skip
+    random.choices([call for _, call in kinds], [weight for weight, _ in kinds])[0]()
+
+
+def _move(pair: Pair, random: random.Random) -> None:
+    """Move the ends a little, together or apart, and step."""
+    values = pair.oracle.run.read("real", [pair.references[name] for name in ("car_position", "counterweight_position")])
+    moved = [float(value) + random.uniform(-0.01, 0.01) for value in values]
+    pair.put(["car_position", "counterweight_position"], moved)
+    pair.step(random.choice(STEPS[:6]))
+
+
+def _set_any(pair: Pair, random: random.Random) -> None:
+    """Set some real variable to its start, within its range or to nonsense; the mesh stays small."""
+    one = random.choice([one for one in pair.oracle.interface.variables if one.kind == "real"])
+    low, high = one.minimum, one.maximum
+    value = random.choice(ODD)
+    if low is not None and high is not None and random.random() < 0.7:
+        small = one.name in ("shaft.height", "shaft.pit", "rope.element_length", "solver.step")
+        value = float(one.start or low) if small else random.choice((low, high, random.uniform(low, high), float(one.start or 0.0)))
+    pair.put([one.name], [value])

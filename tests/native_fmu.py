@@ -1,0 +1,54 @@
+"""The rope's native FMU for this system, built once for a test run and kept by the content of its sources."""
+
+import hashlib
+import tempfile
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import comprope
+from comprope.errors import InputError
+from comprope.fmi.build import Origin
+from comprope.fmi.engine import ModelInterface
+from comprope.native import link
+from comprope.native.build import build_native
+from comprope.rope.engine import interface
+from comprope.rope.modelfile import load
+from comprope_system import presets
+
+ORIGIN = Origin("1.2.3", "MIT")
+
+
+def _compiler_missing() -> bool:
+    try:
+        link.toolchain()
+    except InputError:
+        return True
+    return False
+
+
+compiler = pytest.mark.skipif(_compiler_missing(), reason="neither ziglang nor a C compiler is installed")
+
+
+@cache
+def tower() -> ModelInterface:
+    """The 50 m test tower's rope."""
+    return interface(load(presets.model_path("tower50")))
+
+
+@cache
+def native_fmu() -> Path:
+    """The FMU; building takes half a minute."""
+    folder = Path(tempfile.gettempdir()) / "comprope-native" / _digest()
+    if not (made := folder / "CompensationRope-native.fmu").is_file():
+        build_native(tower(), folder, ORIGIN, targets=[link.here()])
+    return made
+
+
+def _digest() -> str:
+    total = hashlib.sha256(link.toolchain().encode())
+    sources = Path(comprope.__file__).parent
+    for file in sorted(path for path in sources.rglob("*") if path.suffix in (".py", ".c", ".h", ".html")):
+        total.update(file.relative_to(sources).as_posix().encode() + b"\0" + file.read_bytes())
+    return total.hexdigest()[:16]

@@ -1,0 +1,242 @@
+"""The rope's FMU that needs no Python: valid, the same to the last bit, and unshakeable."""
+
+import re
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+from fmpy import read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+
+from comprope.errors import InputError
+from comprope.fmi.description import completed
+from comprope.fmi.face import slave_class
+from comprope.native import link
+from comprope.native.build import build_native
+from comprope.native.machine import TARGETS
+from comprope.native.tables import quoted
+from comprope.rope.words import WORDS, require_fine
+
+from .fmi_pair import Pair
+from .native_fmu import ORIGIN, compiler, native_fmu, tower
+
+HEADERS = Path(fmpy.__file__).parent / "c-code"
+HOST = Path(__file__).parent / "native_host.c"
+EFFECTS = {
+    "effects.air_drag.drag_coefficient": 1.1, "effects.shaft_airflow.crossflow_ratio": 0.2,
+    "effects.bending_hysteresis.friction_moment": 0.5, "effects.intrinsic_curvature.curvature": 0.1,
+    "effects.sheave_eccentricity.eccentricity": 0.001, "effects.bearing_friction.coulomb_torque": 2.0,
+    "effects.guide_friction.coulomb_force": 20.0, "effects.sheave_damper.damping": 1e3,
+    "effects.building_sway.amplitude": 0.05, "effects.attachment_offset.car": 0.01, "sheave.mass": 60.0,
+}  # fmt: skip
+
+pytestmark = compiler
+
+
+@pytest.fixture(scope="module")
+def fmu() -> Path:
+    return native_fmu()
+
+
+@pytest.fixture
+def pair(fmu: Path) -> Iterator[Pair]:
+    made = Pair(fmu, tower())
+    yield made
+    made.free()
+
+
+def test_valid_and_complete(fmu: Path) -> None:
+    assert validate_fmu(str(fmu)) == []
+    with zipfile.ZipFile(fmu) as archive:
+        names = set(archive.namelist())
+        page = archive.read("documentation/index.html").decode()
+    assert {"model.png", "documentation/licenses/license.txt", "documentation/licenses/fmi-headers.txt"} <= names
+    assert "sheave.mass" in page and "fmi2Error" in page and "pip install" not in page
+    assert not any(name.endswith(".py") for name in names)
+
+
+def test_same_description_as_the_fmu_in_python(fmu: Path) -> None:
+    slave = type("CompensationRope", (slave_class(tower()),), {})(instance_name="one")
+    other = ET.fromstring(completed(ET.tostring(slave.to_xml()), tower(), "1.2.3", ""))
+    with zipfile.ZipFile(fmu) as archive:
+        own = ET.fromstring(archive.read("modelDescription.xml"))
+    for tag in ("ModelVariables", "ModelStructure", "UnitDefinitions", "DefaultExperiment"):
+        assert [(one.tag, one.attrib) for one in own.find(tag).iter()] == [(one.tag, one.attrib) for one in other.find(tag).iter()]
+    face = own.find("CoSimulation").attrib
+    told = ("needsExecutionTool", "canBeInstantiatedOnlyOncePerProcess")
+    able = ("canGetAndSetFMUstate", "canSerializeFMUstate", "canHandleVariableCommunicationStepSize")
+    assert {face[name] for name in told} == {"false"} and {face[name] for name in able} == {"true"}
+
+
+@pytest.mark.skipif(not shutil.which("nm"), reason="nm is not installed")
+def test_needs_nothing_but_the_c_library(fmu: Path, tmp_path: Path) -> None:
+    listed = subprocess.run(["nm", "-D", unpacked(fmu, tmp_path)], capture_output=True, text=True, check=True).stdout
+    symbols = {line.split()[-1].partition("@")[0]: line.split()[-2] for line in listed.splitlines()}
+    needed = {name for name, kind in symbols.items() if kind == "U"}
+    memory = {"calloc", "free", "memcpy", "memset", "memcmp", "bcmp", "memmove", "strcmp", "strncpy"}
+    text = {"snprintf", "vsnprintf", "__snprintf_chk", "__vsnprintf_chk", "__stack_chk_fail"}
+    numbers = {"sin", "cos", "sincos", "exp", "pow", "rint", "ceil", "fmax", "fmin", "sqrt"}
+    assert needed <= memory | text | numbers
+    assert all(name.startswith(("fmi2", "_")) for name, kind in symbols.items() if kind == "T")
+
+
+def unpacked(fmu: Path, folder: Path) -> Path:
+    """The binary for this system."""
+    target = TARGETS[link.here()]
+    with zipfile.ZipFile(fmu) as archive:
+        return Path(archive.extract(f"binaries/{target.folder}/CompensationRope.{target.extension}", folder))
+
+
+# -- the same numbers ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("values", [{}, EFFECTS, {"rope.element_length": 0.2, "shaft.height": 20.0, "counterweight_position": 20.0}])
+@pytest.mark.parametrize("switches", [(False, False), (True, True)])
+def test_same_bits_as_just_in_time(pair: Pair, values: dict[str, float], switches: tuple[bool, bool]) -> None:
+    """On one machine: the library's sine is the same, and no sum is reordered for wider vector units."""
+    top = values.get("shaft.height", 50.0)
+    for name, value in zip(("derivative_inputs", "inputs_at_end"), switches, strict=True):
+        pair.switch(name, value)
+    pair.put(list(values), list(values.values()))
+    pair.enter()
+    pair.begin()
+    pair.read()
+    time = 0.0
+    for count in range(60):
+        dt = (0.01, 0.013, 0.004)[count % 3]
+        at = time + dt * switches[1]
+        ends = {"position": (0.3 * at * at, top - 0.3 * at * at), "velocity": (0.6 * at, -0.6 * at), "acceleration": (0.6, -0.6)}
+        for what, both in ends.items():
+            pair.put([f"car_{what}", f"counterweight_{what}"], both)
+        pair.step(dt)
+        time += dt
+    pair.read()
+    assert pair.refusals == 0
+
+
+def test_simulates_in_fmpy(fmu: Path) -> None:
+    result = simulate_fmu(str(fmu), stop_time=0.5, step_size=0.01, output_interval=0.01, start_values={"sheave.mass": 80.0})
+    assert result["time"][-1] == pytest.approx(0.5, abs=1e-12)
+    assert result["sheave_force"][-1] == pytest.approx(80.0 * 9.81, rel=1e-6)  # at rest, its weight
+
+
+# -- errors --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"sheave.mass": -3.0, "rope.diameter": 5.0}, "parameter rope.diameter = 5 m: 0.002 to 0.1 m is accepted (outer diameter); parameter sheave.mass = -3 kg"),
+        ({"rope.element_length": 0.3}, "rope.element_length = 0.3 m is too coarse for the sheave; at most half of sheave.radius = 0.4 m"),
+        ({"car_position": 60.0, "counterweight_position": -10.0}, "car_position = 60 m with counterweight_position = -10 m at t = 0 s: the rope of"),
+    ],
+)  # fmt: skip
+def test_impossible_values_are_told(pair: Pair, values: dict[str, float], sentence: str) -> None:
+    pair.put(list(values), list(values.values()))
+    pair.enter()
+    pair.begin()
+    assert pair.refusals == 1 and sentence in pair.messages[0]
+    assert pair.messages[0].startswith("3 CompensationRope 'pair' at t = 0 s: ")
+
+
+def lose(pair: Pair) -> None:
+    """Throw one end away in a step."""
+    pair.put(["car_velocity"], [1e8])
+    pair.step(0.01)
+
+
+def test_a_lost_step_says_where_and_when(pair: Pair) -> None:
+    pair.switch("derivative_inputs", True)
+    pair.enter()
+    pair.begin()
+    lose(pair)
+    assert re.search(r"the time step at t = 0\.\d+ s did not converge .* worst at .* height", pair.messages[0])
+    pair.step(0.01)
+    assert "no steps and outputs after an error, unless reset or restored; the error was: the time step" in pair.messages[0]
+
+
+def test_a_failed_run_can_be_taken_back(pair: Pair) -> None:
+    pair.switch("derivative_inputs", True)
+    pair.enter()
+    pair.begin()
+    pair.save()
+    lose(pair)
+    assert pair.refusals == 1
+    pair.restore(0, serialized=True)
+    pair.step(0.01)
+    pair.read()
+    assert pair.refusals == 1
+
+
+def test_words_take_as_many_numbers_as_they_are_given() -> None:
+    for status, (kind, text, count) in WORDS.items():
+        assert len(re.findall(r"%[.\d]*[gef]", text)) == count
+        with pytest.raises(kind):
+            require_fine(status, [1.0] * 6)
+
+
+def test_strings_of_c_hold_any_text() -> None:
+    assert quoted('a "b"\\\n') == '"a \\042b\\042\\134\\012"'
+    assert quoted("µ1") == '"\\302\\2651"'
+
+
+# -- a host without Python -----------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def host(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    return [compiled(HOST, tmp_path_factory.mktemp("host") / "host")]
+
+
+def compiled(source: Path, program: Path, *options: str) -> str:
+    compiler = [sys.executable, "-m", "ziglang", "cc"] if shutil.which("cc") is None else ["cc"]
+    command = [*compiler, "-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", f"-I{HEADERS}", *options, str(source)]
+    subprocess.run([*command, "-o", str(program), "-ldl", "-lpthread", "-lm"], check=True)
+    return str(program)
+
+
+def hosted(host: list[str], scenario: str, fmu: Path, binary: Path, number: int) -> str:
+    description = read_model_description(str(fmu))
+    references = {one.name: str(one.valueReference) for one in description.modelVariables}
+    names = ("car_position", "counterweight_position", "sheave.mass", "lateral_displacement[1]")
+    arguments = [scenario, str(binary), description.guid, *(references[name] for name in names), str(number)]
+    result = subprocess.run([*host, *arguments], capture_output=True, text=True, timeout=300, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the host needs POSIX threads")
+@pytest.mark.parametrize(("scenario", "number"), [("cycle", 20), ("threads", 3), ("states", 1), ("wrong", 1)])
+def test_in_a_host_without_python(fmu: Path, host: list[str], tmp_path: Path, scenario: str, number: int) -> None:
+    """Loaded and unloaded, in threads, saved and restored, called wrongly; memory is given back to the last byte."""
+    assert hosted(host, scenario, fmu, unpacked(fmu, tmp_path), number).startswith(f"{scenario}: 0 failures")
+
+
+# -- building ------------------------------------------------------------------------------------
+
+
+def test_same_source_same_bytes(fmu: Path, tmp_path: Path) -> None:
+    assert build_native(tower(), tmp_path, ORIGIN, targets=[link.here()]).read_bytes() == fmu.read_bytes()
+    assert list(tmp_path.iterdir()) == [tmp_path / "CompensationRope-native.fmu"]
+
+
+def test_without_a_compiler_the_cure_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(link, "_zig", lambda: False)
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    with pytest.raises(InputError, match="no C compiler: `pip install ziglang`"):
+        link.toolchain()
+
+
+def test_one_file_for_several_processors() -> None:
+    parts: list[Any] = [b"\xcf\xfa\xed\xfe" + number.to_bytes(4, "little") * 2 + bytes(5000) for number in (7, 12)]
+    whole = link.universal(parts)
+    for place, part in enumerate(parts):
+        at = int.from_bytes(whole[8 + 20 * place + 8 :][:4], "big")
+        assert at % 16384 == 0 and whole[at : at + len(part)] == part

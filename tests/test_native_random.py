@@ -1,0 +1,127 @@
+"""Random calls, sensible and not, on the native FMU and on the one in Python: both must agree with the model itself."""
+
+import os
+import random
+import shutil
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, precondition, rule, run_state_machine_as_test
+
+from comprope.fmi.build import build
+from comprope.rope.modelfile import dump, load
+from comprope_system import presets
+from comprope_system.cosim.fmus import _ROPE_ENTRY
+
+from .fmi_pair import ODD, SMALL, STEPS, Pair, random_call
+from .native_fmu import ORIGIN, compiler, native_fmu, tower
+
+NUMBERS = st.floats(-2.0, 60.0) | st.sampled_from(ODD)
+NAMES = st.sampled_from([one.name for one in tower().variables if one.kind == "real"])
+MESH = ("shaft.height", "shaft.pit", "rope.element_length", "solver.step")  # to be left alone, so that calls stay quick
+
+
+class Calls(RuleBasedStateMachine):
+    """Any call at any time, on an instance that begins where the FMI begins."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.pair = Pair(native_fmu(), tower())
+
+    def teardown(self) -> None:
+        self.pair.free()
+
+    @initialize()
+    def small(self) -> None:
+        self.pair.put(list(SMALL), list(SMALL.values()))
+
+    @rule(start=st.sampled_from((0.0, 5.0)), stop=st.sampled_from((None, 5.1)))
+    def plan(self, start: float, stop: float | None) -> None:
+        self.pair.plan(start, stop)
+
+    @rule()
+    def enter(self) -> None:
+        self.pair.enter()
+
+    @rule()
+    def begin(self) -> None:
+        self.pair.begin()
+
+    @rule(dt=st.sampled_from(STEPS), late=st.sampled_from((0.0, 0.0, 0.0, 1.0)))
+    def step(self, dt: float, late: float) -> None:
+        self.pair.step(dt, late)
+
+    @precondition(lambda self: self.pair.oracle.phase == 2)
+    @rule(car=st.floats(-0.01, 0.01), steps=st.integers(1, 5))
+    def move(self, car: float, steps: int) -> None:
+        self.pair.put(["car_position", "counterweight_position"], [car, 1.0 - car])
+        for _ in range(steps):
+            self.pair.step(0.01)
+
+    @rule(name=NAMES.filter(lambda name: name not in MESH), value=NUMBERS)
+    def put(self, name: str, value: float) -> None:
+        self.pair.put([name], [value])
+
+    @rule(name=st.sampled_from(("derivative_inputs", "inputs_at_end")), value=st.booleans())
+    def switch(self, name: str, value: bool) -> None:
+        self.pair.switch(name, value)
+
+    @rule()
+    def read(self) -> None:
+        self.pair.read()
+
+    @rule(reference=st.integers(0, 2**32 - 1))
+    def read_nonsense(self, reference: int) -> None:
+        self.pair.read_nonsense(reference)
+
+    @rule()
+    def save(self) -> None:
+        self.pair.save()
+
+    @rule(place=st.integers(0, 9), serialized=st.booleans())
+    def restore(self, place: int, serialized: bool) -> None:
+        self.pair.restore(place, serialized)
+
+    @rule()
+    def terminate(self) -> None:
+        self.pair.terminate()
+
+    @rule()
+    def start(self) -> None:
+        self.pair.start(SMALL)
+
+
+@compiler
+def test_any_sequence_of_calls() -> None:
+    run_state_machine_as_test(Calls, settings=settings(max_examples=30, stateful_step_count=40, deadline=None))
+
+
+def python_fmu(out: Path) -> Path:
+    """The same rope as an FMU in Python."""
+    dump(load(presets.model_path("tower50")), out / "model.toml")
+    return build(tower(), ["rope"], _ROPE_ENTRY, out, ORIGIN, {"model.toml": (out / "model.toml").read_bytes()})
+
+
+# So many calls take 20 s and 80 s; by default only a share of them is made.
+CALLS = int(os.environ.get("COMPROPE_CALLS", "5000"))
+
+
+@compiler
+def test_thousands_of_calls_on_the_native_fmu() -> None:
+    make_calls(Pair(native_fmu(), tower()), CALLS)
+
+
+def test_thousands_of_calls_on_the_fmu_in_python(tmp_path: Path) -> None:
+    make_calls(Pair(python_fmu(tmp_path), tower(), status=4, strict=False), CALLS // 4)
+    shutil.rmtree(tmp_path)
+
+
+def make_calls(pair: Pair, count: int) -> None:
+    generator = random.Random(7)
+    pair.start(SMALL)
+    while pair.calls < count:
+        random_call(pair, generator)
+    assert 0 < pair.refusals < 0.3 * pair.calls
+    pair.free()
