@@ -290,6 +290,17 @@ def test_a_normal_trip_never_halves_a_step(trip: tuple[float, float]) -> None:
     assert np.all(np.isfinite(rows))
 
 
+def test_a_fast_trip_never_halves_a_step() -> None:
+    """At 9 m/s a step winds a good part of an element on, which the start of the iteration must foresee."""
+    moving, fast = rope({"shaft.height": 80.0}), Profile(speed=9.0, acceleration=3.0, jerk=3.0)
+    trip = plan(fast, 0.0, 80.0, 0.1)
+    moving.settle(0.0, 80.0)
+    for _ in range(round(trip.end_time / 0.02)):
+        ride(moving, trip, 0.02)
+    assert moving.count["halved"] == 0
+    assert moving.count["newton"] < 4 * moving.count["steps"]
+
+
 @pytest.mark.parametrize("weight", [0.1, 0.3])
 def test_a_light_sheave_survives_the_trip(weight: float) -> None:
     moving, rows = ridden(0.0, 50.0, 26.0, (("sheave.mass", 120.0 * weight), ("sheave.inertia", 9.6 * weight)))

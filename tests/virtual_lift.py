@@ -18,7 +18,7 @@ from comprope_system.trips.profile import jerk_limited
 
 MODEL = validated(
     {
-        "shaft": {"height": 20.0, "pit": 1.2},
+        "shaft": {"height": 14.0, "pit": 1.2},
         "rope": {
             "mass_per_length": 1.2, "diameter": 0.018, "axial_stiffness": 8.0e6, "bending_stiffness": 20.0,
             "axial_damping": 2.0e3, "bending_damping": 0.1, "element_length": 0.08,
@@ -41,13 +41,13 @@ CHANNELS = {
     "axle": Channel(column="axle", quantity="sheave_displacement", unit="mm", reference="rest", noise=0.05),
     "turning": Channel(column="turning", quantity="sheave_angular_velocity", unit="rad/s", noise=0.01),
 }
-PHASES = np.array([0.8, 0.3, 0.8, 1.5, 0.8, 0.3, 0.8])  # s, from rest to rest
+PHASES = np.array([0.7, 0.3, 0.7, 1.3, 0.7, 0.3, 0.7])  # s, from rest to rest
 RUNS = (
-    ("up.csv", "fit", 2.0, 9.0, {"sheave.mass": 120.0}),
-    ("down_light.csv", "fit", 14.0, -9.0, {"sheave.mass": 70.0}),
-    ("up_short.csv", "validate", 5.0, 7.0, {"sheave.mass": 95.0}),
+    ("up.csv", "fit", 2.0, 7.0, {"sheave.mass": 120.0}),
+    ("down_light.csv", "fit", 10.0, -7.0, {"sheave.mass": 70.0}),
+    ("up_short.csv", "validate", 4.0, 5.0, {"sheave.mass": 95.0}),
 )
-END, SAMPLING, STEP = 11.0, 0.02, 0.003  # s; the model under test takes other steps
+END, SAMPLING, STEP = 9.0, 0.02, 0.003  # s; the model under test takes other steps
 
 
 def campaign(folder: Path, hidden: dict[str, float], seed: int = 1) -> Path:

@@ -10,16 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
-from comprope.errors import InputError
 from comprope.rope.modelfile import read_toml
 
-from .trips import Trip, recover_trip
+from .identify.campaign import UNITS, read_table, read_trips
+from .trips import Trip
 
 Floats = NDArray[np.float64]
-UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
+LENGTHS = UNITS["lateral_displacement"]
 
 
 @dataclass(frozen=True)
@@ -43,53 +42,27 @@ class Run:
 
 def read_run(path: Path, height: float, sensors: Sequence[str]) -> Run:
     """The run of a CSV file, in a shaft of this height [m]; raises `InputError` for what it lacks."""
-    table = _table(path)
-    time = table["time"].to_numpy(float)
+    table = read_table(path, ("time", "car_position"))
     described = path.parent / "campaign.toml"
     campaign = read_toml(described) if described.is_file() else {}
-    try:
-        trips = _trips(time, table, height)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+    car, counterweight = read_trips(path, table, height)
     wanted = _described(campaign) if campaign else {name: (name, 1.0, False) for name in sensors}
+    time = table["time"].to_numpy(float)
     channels = {
         sensor: Channel(time, table[column].to_numpy(float) * scale, from_rest)
         for sensor, (column, scale, from_rest) in wanted.items()
         if column in table and sensor in sensors
     }
-    return Run(trips, channels, _changes(campaign, path.name), float(time[-1]))
-
-
-def _table(path: Path) -> pd.DataFrame:
-    try:
-        table = pd.read_csv(path, skipinitialspace=True)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except (ValueError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not a CSV table: {' '.join(str(error).split())}") from None
-    if missing := [name for name in ("time", "car_position") if name not in table]:
-        raise InputError(f"{path}: no column {' and '.join(missing)}; the header has {', '.join(map(str, table.columns))}")
-    numbers = table.apply(pd.to_numeric, errors="coerce")
-    for name in table.columns[(numbers.isna() & table.notna()).any()]:
-        row = int((numbers[name].isna() & table[name].notna()).to_numpy().argmax())
-        raise InputError(f"{path}: {name} = {table[name].iloc[row]!r} in row {row + 2}: a number or an empty cell is accepted")
-    return numbers
-
-
-def _trips(time: Floats, table: pd.DataFrame, height: float) -> dict[str, Trip]:
-    car = recover_trip(time, table["car_position"])
-    if "counterweight_position" in table:
-        return {"car": car, "counterweight": recover_trip(time, table["counterweight_position"])}
-    return {"car": car, "counterweight": car.mirrored(height)}
+    return Run({"car": car, "counterweight": counterweight}, channels, _changes(campaign, path.name), float(time[-1]))
 
 
 def _described(campaign: dict[str, Any]) -> dict[str, tuple[str, float, bool]]:
     """Column, metres per unit, and whether it counts from rest, by sensor, as a campaign describes its channels."""
     found = {}
     for channel in campaign.get("channels", []):
-        if isinstance(channel, dict) and channel.get("quantity") == "lateral_displacement" and channel.get("unit") in UNITS:
+        if isinstance(channel, dict) and channel.get("quantity") == "lateral_displacement" and channel.get("unit") in LENGTHS:
             column = str(channel.get("column"))
-            found[str(channel.get("sensor"))] = column, UNITS[channel["unit"]], channel.get("reference") == "rest"
+            found[str(channel.get("sensor"))] = column, LENGTHS[channel["unit"]], channel.get("reference") == "rest"
     return found
 
 

@@ -87,5 +87,5 @@ def forces_on(n, t, p1, l0, w, e0, q0, v0, moves, q, v, w1, e, at, h, dq, dv, da
     all_moments(n, p1, w1, hi, hd, power)
     sum_forces(n, p1, v, w1, f)
     f[n], f[m + n] = p1[M] * p1[G], 0.0
-    touch_again(n, p1, q, v, f, touch, Z)
+    touch_again(n, p1, q, v, f, touch, Z, 0.0, 0.0, False)
     all_forces(n, t, p1, q, v, w1, f, power)

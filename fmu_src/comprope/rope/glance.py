@@ -60,7 +60,7 @@ def weights(s):
 
 @kernel
 def look(n, directions, sensors, q0, dq, sides, depths, glances):
-    """Set glances[j directions + k] to the derivative along direction k of the lateral position that sensor j sees.
+    """Set glances[j directions + k] to the derivative along direction k of the outward position that sensor j sees.
 
     A sensor at a fixed depth sees dy - (dy/dx) dx of the place on the rope that is before it. Next to the ends the
     rope is seen as straight elements.
@@ -82,7 +82,7 @@ def look(n, directions, sensors, q0, dq, sides, depths, glances):
         for k in range(directions):
             at = (k // LANES * 2 * m + 2 * i) * LANES + k % LANES
             dx = gather(dq, at, i, n, a, b, c, d)
-            glances[j * directions + k] = gather(dq, at + LANES, i, n, a, b, c, d) - lean * dx
+            glances[j * directions + k] = sides[j] * (gather(dq, at + LANES, i, n, a, b, c, d) - lean * dx)
 
 
 @kernel

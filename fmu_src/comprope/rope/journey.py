@@ -29,7 +29,7 @@ def march_tangent(
                 copy(state_size, h0, hp)
                 accept(n, state_size, q, v, a, f, h1, q0, v0, a0, f0, h0)
                 step_directions(n, t0 + s * dt, h, dt, s, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v,
-                                a, f, w, L, B, Z, touch, power, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1,
+                                a, f, w, A, L, B, Z, touch, power, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1,
                                 path1, moves, w1, e0, f1, fc, hi, hb, hd, D)  # fmt: skip
                 done += size
                 count[STEPS] += 1

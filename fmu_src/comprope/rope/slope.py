@@ -127,23 +127,23 @@ def rope_slope(n, p, v, w, e0, dp, d, base, h, dq, dv, da, D):
 
 
 @kernel
-def touch_again(n, p, q, v, f, touch, Z):
-    """Add the contact forces as `contact.add_contact` has them, among the nodes that it found near the groove."""
+def touch_again(n, p, q, v, f, touch, Z, ck, cc, tangent):
+    """Add contact forces, and with `tangent` their tangent to Z, among the nodes near the groove that `touch` names."""
     ex, ey, gx, gy = all_groove(p, q[n + n + 1])
     touch[FORCE_X], touch[ELASTIC], touch[NORMAL_LOSS], touch[FRICTION_LOSS] = 0.0, 0.0, 0.0, 0.0
     for i in range(int(touch[FIRST]), int(touch[LAST]) + 1):
         if near(n + 1, p, q, i, q[n] + ex, ey):
-            touch_piece(n, p, q, v, f, touch, i, ex, ey, gx, gy, Z, 0.0, 0.0, False)
+            touch_piece(n, p, q, v, f, touch, i, ex, ey, gx, gy, Z, ck, cc, tangent)
 
 
 @kernel
-def contact_alone(n, p, q, v, f, touch, Z):
-    """Set f to the contact forces, on the nodes near the groove and on the sheave only."""
+def contact_alone(n, p, q, v, f, touch, Z, ck, cc, tangent):
+    """Set f to the contact forces, on the nodes near the groove and on the sheave only; for the rest see `touch_again`."""
     m = n + 1
     for i in range(int(touch[FIRST]) - 1, int(touch[LAST]) + 2):
         f[i], f[m + i] = 0.0, 0.0
     f[n], f[m + n] = 0.0, 0.0
-    touch_again(n, p, q, v, f, touch, Z)
+    touch_again(n, p, q, v, f, touch, Z, ck, cc, tangent)
 
 
 @kernel
@@ -162,7 +162,7 @@ def contact_slope(n, p1, e, at, h, q0, v0, dq, dv, da, q, v, f, f0, touch, Z, D)
     for i in range(first, last + 1):
         move_node(m, i, e, at, h, q0, v0, dq, dv, da, q, v)
     move_node(m, n, e, at, h, q0, v0, dq, dv, da, q, v)
-    contact_alone(n, p1, q, v, f, touch, Z)
+    contact_alone(n, p1, q, v, f, touch, Z, 0.0, 0.0, False)
     per_e = 1.0 / e
     for i in range(first, last + 1):
         D[at + 2 * LANES * i] += (f[i] - f0[i]) * per_e

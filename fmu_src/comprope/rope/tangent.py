@@ -7,7 +7,7 @@ predictor as the step's own, dq = dq0 + h (dv0 + h/2 da0), dv = dv0 + h da0, one
     da = da0 + r,  dv += gamma h r,  dq += beta h^2 r,
 
 where J is the tangent of the step and D the directional derivative of the forces (see `slope`), which is
-exact: that J may be of an earlier iterate errs in the correction alone. The next dc follows from the
+exact: that J may be of an earlier iterate errs in the correction alone, and only away from the groove. The next dc follows from the
 balance of the step. What the ends do with dp is read off their paths by differences.
 
 Directions go in blocks of LANES: number (node i, component c) of direction k in dq, dv, da, dc and D sits at
@@ -16,6 +16,7 @@ the same way, and `at` and `toward`, direction after direction, where the parame
 """
 
 from .acting import add_lane, begun_effects, forces_on, set_lane
+from .contact import clear
 from .dynamics import forces, node_mass
 from .ends import PATH, PATHS, place_ends
 from .jit import kernel
@@ -23,7 +24,8 @@ from .lanes import solve_lanes
 from .slope import ahead, contact_alone, contact_slope, elongations, rope_slope
 from .slots import ALPHA, ELEMENT, RHO, J, M, R
 from .vector import LANES, put, take
-from .work import FORCE_X
+from .work import FIRST, FORCE_X, LAST
+from .zone import factor_zone, fill
 
 MOVE = 1e-7  # m, the largest move by which forces are differenced
 PERIOD = 0.1  # s, by which velocities are compared with moves
@@ -77,18 +79,28 @@ def keep_history(state_size, k, e, way, hb, hd, dh):
 
 
 @kernel
-def present(n, t, directions, way, p, q0, v0, h0, w, e0, f1, fc, touch, hb, power, Z):
-    """What all directions start from: forces f1 and history hb if any is differenced, those of the contact fc, elongations e0.
+def renew_zone(n, h, p, q, v, fc, touch, A, L, B, Z):
+    """Set fc to the contact forces of the state reached, and factor their tangent anew in the factor's zone.
 
-    The workspace w must be of this state, or within the step's tolerance of it.
+    The contact changes most between the iterate that was factored and the state reached; the rope's share in A
+    stays as it was.
     """
-    differenced = False
+    first, last, alpha = int(L[n]), int(L[2 * n + 1]), p[ALPHA]
+    touch[FIRST], touch[LAST] = first + 1.0, last - 1.0
+    clear(n, Z, first + 1, last - 1)
+    ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
+    contact_alone(n, p, q, v, fc, touch, Z, ck, cc, True)
+    fill(n, A, Z, B, first, last)
+    factor_zone(2 * (last - first + 1), B)
+
+
+@kernel
+def differenced(directions, way):
+    """Whether any direction is differenced from the forces of the state reached."""
     for k in range(directions):
-        differenced = differenced or way[k] >= DIFFERENCED
-    if differenced:
-        forces(n, t, p, q0, v0, w, f1, touch, h0, hb, power, Z, 0.0, 0.0, False)
-    elongations(n, p, v0, w, e0)
-    contact_alone(n, p, q0, v0, fc, touch, Z)
+        if way[k] >= DIFFERENCED:
+            return True
+    return False
 
 
 @kernel
@@ -186,15 +198,18 @@ def correct_block(n, p, dp, d, base, h, a0, D, dq, dv, da, dc):
 
 @kernel
 def step_directions(
-    n, t, h, dt, s, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, L, B, Z, touch, power, at,
+    n, t, h, dt, s, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, A, L, B, Z, touch, power, at,
     toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi, hb, hd, D,
 ):  # fmt: skip
     """Carry all directions over an accepted step of length h that has ended at (q0, v0, a0); hp is the history before it.
 
-    q, v, a, f are free for use.
+    q, v, a, f are free for use; the workspace w is of that state, or within the step's tolerance of it.
     """
     m, stride = n + 1, parameters * LANES
-    present(n, t, directions, way, p, q0, v0, hp, w, e0, f1, fc, touch, hb, power, Z)
+    if differenced(directions, way):
+        forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
+    elongations(n, p, v0, w, e0)
+    renew_zone(n, h, p, q0, v0, fc, touch, A, L, B, Z)
     for k in range(directions):
         if guided[k] != 0.0:
             place_direction(n, t, k, h, parameters, path, dt, s, at, toward, limit, dpath, p1, path1, q0, v0, a0, q, v, a, dq, dv, da)
@@ -224,7 +239,8 @@ def differentiate(
 ):  # fmt: skip
     """Set D to the derivative of the forces along all directions, lift[k] to that of the vertical force on the sheave."""
     forces(n, t, p, q0, v0, w, f1, touch, h0, hb, power, Z, 0.0, 0.0, False)
-    present(n, t, 0, way, p, q0, v0, h0, w, e0, f1, fc, touch, hb, power, Z)
+    elongations(n, p, v0, w, e0)
+    contact_alone(n, p, q0, v0, fc, touch, Z, 0.0, 0.0, False)
     force = touch[FORCE_X]
     for block in range(blocks):
         rope_slope(n, p, v0, w, e0, dp, parameters * LANES * block, 2 * (n + 1) * LANES * block, 0.0, dq, dv, da, D)

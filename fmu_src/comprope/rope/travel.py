@@ -11,7 +11,7 @@ from .words import FINE, LOST, LOST_AT_SHEAVE, TOO_LONG
 
 STEP = slot("solver.step")
 PASSED = 0.6  # of an element may run onto the sheave in one time step: keeps displacements within 0.05 mm at any speed
-MOST = 1e7  # time steps in one communication step: hours of computing, so it is a mistake
+MOST = 1e6  # time steps in one communication step: minutes of computing, so it is a mistake
 
 
 @kernel
@@ -23,11 +23,12 @@ def travel(
 
     After a failure the state is that of the last accepted time step, and `time` that of the step's start.
     """
-    t0, share = time[0], dt / p[STEP]
-    if not share <= MOST:
-        told[0], told[1], told[2] = dt, MOST, p[STEP]
+    t0, share, fastest = time[0], dt / p[STEP], speed(path)
+    passed = dt * fastest / (PASSED * p[ELEMENT])
+    if not (share <= MOST and passed <= MOST):
+        told[0], told[1], told[2], told[3] = dt, t0, fastest, MOST
         return TOO_LONG
-    steps = max(1, ceil(share * (1.0 - 1e-9)), ceil(dt * speed(path) / (PASSED * p[ELEMENT])))
+    steps = max(1, ceil(share * (1.0 - 1e-9)), ceil(passed))
     reached = march(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power,
                     P0, P, E, count, state_size, effects)  # fmt: skip
     if reached == 1.0:

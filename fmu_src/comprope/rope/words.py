@@ -36,8 +36,8 @@ WORDS: dict[int, tuple[type[CompropeError], str, int]] = {
     ),
     TOO_LONG: (
         InputError,
-        "communication step = %g s: at most %g time steps of solver.step = %g s are accepted in one",
-        3,
+        "communication step = %g s from t = %g s with rope ends of up to %g m/s: more than %g time steps, which is not accepted",
+        4,
     ),
     TOO_COARSE: (
         InputError,

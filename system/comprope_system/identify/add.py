@@ -12,11 +12,11 @@ from comprope.rope.effects import RopeModel
 
 from .campaign import Campaign
 from .compare import Comparison, compare
-from .fit import Fitted, directions_of, point_of, refine
+from .fit import Fitted, refine
 from .hypotheses import NUISANCES, Hypothesis
 from .linear import by_effect, by_plant
 from .plain import plain
-from .point import Point, gathered, submit
+from .point import Point, Predictions, gathered, submit
 from .present import alternatives, grouped, joined, name_of, present, shape_of, short_names
 from .problem import Problem, pose, solve
 from .spectrum import frequencies
@@ -35,6 +35,7 @@ class Ground:
 
     campaign: Campaign
     problem: Problem
+    nominal: Predictions
     plant: Floats
     fitted: Fitted
 
@@ -49,7 +50,7 @@ def prepare(campaign: Campaign, executor: Executor, say: Say = lambda _: None) -
     plant = by_plant(problem, Point(), problem.whitened(nominal))
     hypothesis, coefficients = present(campaign)
     start = np.concatenate([np.zeros(len(NUISANCES)), coefficients])
-    return Ground(campaign, problem, plant, refine(problem, hypothesis, start, Point(), plant))
+    return Ground(campaign, problem, nominal, plant, refine(problem, hypothesis, start, Point(), plant))
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ class Added:
             "plant": {key: one.to_json() for key, one in self.plant.items()},
             "misfit_per_datum": self.fitted.misfit / max(len(self.ground.problem.data), 1),
         }  # fmt: skip
-        return plain(found)  # type: ignore[no-any-return]
+        return plain(found)
 
 
 def add(campaign: Campaign, effect: str, executor: Executor, say: Say = lambda _: None) -> Added:
@@ -102,34 +103,36 @@ def add(campaign: Campaign, effect: str, executor: Executor, say: Say = lambda _
     say(f"{effect}, linearised")
     new, start = _best_start(ground, alternatives(effect, campaign, frequencies(ground.problem, ground.fitted.predictions)))
     say(f"{effect}, on the full model")
-    fitted = fit_new(ground, new, start, ground.fitted)
-    return added(ground, name_of(new), fitted, executor)
+    return added(ground, name_of(new), fit_new(ground, new, start, ground.fitted), executor)
 
 
 def _best_start(ground: Ground, tried: list[Hypothesis]) -> tuple[Hypothesis, Floats]:
-    """The alternative that explains most of what is left, by its linear look, and its coefficients there."""
-    problem, at = ground.problem, ground.fitted
-    left = problem.data - problem.whitened(at.predictions)
-    point = point_of(at.hypothesis, list(at.coefficients), Point())
-    known = directions_of(at.hypothesis)
-    own = by_effect(problem, at.hypothesis, Point(at.point.plant), at.effect_coefficients, at.predictions) if at.hypothesis else left[:, None][:, :0]
+    """The alternative that explains most by its linear look, and coefficients there: plant, the effect, those present.
+
+    The look is taken from the model as it stands: a plant fitted without the effect is bent to make up for it.
+    """
+    problem, (old, own) = ground.problem, present(ground.campaign)
+    y, zeros = problem.whitened(ground.nominal), np.zeros(len(NUISANCES))
+    beside = by_effect(problem, old, Point(), list(own), ground.nominal) if old else np.zeros((len(y), 0))
     looks = []
     for one in tried:
-        by = by_effect(problem, one, point, [0.0] * len(one.directions), at.predictions)
-        begin = np.concatenate([at.coefficients, np.zeros(len(one.directions))])
-        found = solve(left, np.hstack([ground.plant, own, by]), [*known, *one.directions], begin)
-        looks.append((found.misfit, one, found.coefficients[len(known) :]))
-    _, best, coefficients = min(looks, key=lambda look: look[0])
-    return best, coefficients
+        none = np.zeros(len(one.directions))
+        by = by_effect(problem, one, Point(), list(none), ground.nominal)
+        directions = [*NUISANCES, *one.directions, *(old.directions if old else ())]
+        matrix = np.hstack([ground.plant, by, beside])
+        looks.append((solve(problem.data - y, matrix, directions, np.concatenate([zeros, none, own])), one))
+    found, best = min(looks, key=lambda look: look[0].misfit)
+    return best, found.coefficients
 
 
 def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fitted:
-    """Refine a new effect, begun at coefficients `start`, with plant and present effects, begun as `known` has them.
+    """Refine a new effect with the plant and the effects that `known` has; `start`: plant, new, and perhaps known ones.
 
     What shapes the effect beyond its size is then freed, where it has such: a frequency, a yield curvature.
     """
     old = [part for part, _ in known.hypothesis.shares(known.effect_coefficients)] if known.hypothesis else []
-    begin = np.concatenate([known.coefficients[: len(NUISANCES)], start, known.coefficients[len(NUISANCES) :]])
+    count = len(NUISANCES) + len(new.directions)
+    begin = start if len(start) > count else np.concatenate([start, known.coefficients[len(NUISANCES) :]])
     fitted = refine(ground.problem, joined([new, *old]), begin, Point(), ground.plant)
     return _shaped(ground, new, old, fitted)
 

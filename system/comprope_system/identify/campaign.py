@@ -3,6 +3,7 @@
 Everything is read and checked at once; every problem of all files is reported together.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -164,8 +165,10 @@ def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel | 
     file = path.parent / spec.file
     found: list[str] = []
     changed = _collect(found, lambda: with_changes(model, spec.set, f"{path}: {spec.file}")) if model else None
-    table = _collect(found, lambda: _table(file, described))
-    trips = _collect(found, lambda: _trips(file, table, changed or model)) if table is not None and model else None
+    columns = ["time", "car_position", *(one.column for one in described.channels)]
+    table = _collect(found, lambda: read_table(file, columns))
+    height = (changed or model).shaft.height if model else 0.0
+    trips = _collect(found, lambda: read_trips(file, table, height)) if table is not None and model else None
     if found or trips is None or table is None:
         raise InputError("\n".join(found))
     usable = [one for one in described.channels if one.unit in UNITS[one.quantity]]
@@ -175,15 +178,15 @@ def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel | 
     return Run(spec.file, spec.role, dict(spec.set), time, car, trip, counterweight, values)
 
 
-def _table(file: Path, described: CampaignFile) -> pd.DataFrame:
+def read_table(file: Path, columns: Sequence[str]) -> pd.DataFrame:
+    """The numbers of a CSV file that must have these columns; raises `InputError` naming each column with another cell."""
     try:
         table = pd.read_csv(file, skipinitialspace=True)
     except OSError as error:
         raise InputError(f"{file}: cannot be read: {error.strerror}") from None
     except (ValueError, UnicodeDecodeError) as error:
         raise InputError(f"{file}: not a CSV table: {' '.join(str(error).split())}") from None
-    needed = ["time", "car_position", *(one.column for one in described.channels)]
-    if missing := [name for name in needed if name not in table]:
+    if missing := [name for name in columns if name not in table]:
         raise InputError(f"{file}: no column {', '.join(missing)}; the header has {', '.join(map(str, table.columns))}")
     numbers = table.apply(pd.to_numeric, errors="coerce")
     wrong = [name for name in table.columns if (numbers[name].isna() & table[name].notna()).any()]
@@ -197,12 +200,13 @@ def _wrong_cell(file: Path, name: str, table: pd.DataFrame, numbers: pd.DataFram
     return f"{file}: {name} = {table[name].iloc[row]!r} in row {row + 2}: a number or an empty cell is accepted"
 
 
-def _trips(file: Path, table: pd.DataFrame, model: RopeModel) -> tuple[Trip, Trip]:
+def read_trips(file: Path, table: pd.DataFrame, height: float) -> tuple[Trip, Trip]:
+    """The smooth trips of car and counterweight behind a table's positions, in a shaft of this height [m]."""
     try:
         time = table["time"]
         car = recover_trip(time, table["car_position"])
         if "counterweight_position" in table:
             return car, recover_trip(time, table["counterweight_position"])
-        return car, car.mirrored(model.shaft.height)
+        return car, car.mirrored(height)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None

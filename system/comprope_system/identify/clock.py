@@ -47,9 +47,9 @@ def pooled_delay(group: Sequence[Record]) -> tuple[float, float] | None:
 
 
 def delay(record: Record) -> tuple[float, float] | None:
-    """How late [s] a channel follows its prediction, where they are most alike, and its standard deviation; None where they never are.
+    """How late [s] a channel follows its prediction, and the standard deviation of that; None where they are never alike.
 
-    What is left at best counts as noise that is new every MEMORY seconds.
+    That is where both are most alike; what is left there counts as noise that is new every MEMORY seconds.
     """
     both = record.both
     if both.sum() < 5 * LEAST or np.std(record.measured[both]) < VISIBLE * record.noise:

@@ -87,8 +87,11 @@ def hints(found: list[Clue], standing: float) -> list[str]:
     return [*(clear or none), still] if np.isfinite(standing) else clear or none
 
 
-def standing_share(pieces: list[Piece]) -> float:
-    """Root mean square of the residual at rest before the trip, over that of all of it."""
+def standing_of(campaign: Campaign, predictions: Predictions) -> float:
+    """Root mean square of the residual at rest before the trip, over that of all of it; NaN where there is none."""
+    pieces = residual_pieces(campaign, predictions)
+    if not pieces:
+        return float("nan")
     still, whole = np.concatenate([one.x[one.standing] for one in pieces]), np.concatenate([one.x for one in pieces])
     return rms(still) / rms(whole)
 
@@ -128,7 +131,13 @@ def _motion(campaign: Campaign, run: Run, column: str, t: Floats) -> dict[str, F
     side, height = (sensor.side, sensor.height) if sensor else ("car", -model.shaft.pit)
     material = position - height if side == "car" else model.rope_length - (run.counterweight.position(t) - height)
     acceleration = run.trip.acceleration(t)
-    return {"position": position, "velocity": velocity, "speed": np.abs(velocity), "acceleration": acceleration, "material": material}
+    return {
+        "position": position,
+        "velocity": velocity,
+        "speed": np.abs(velocity),
+        "acceleration": acceleration,
+        "material": material,
+    }
 
 
 # -- profiles ----------------------------------------------------------------------------------------
@@ -140,7 +149,9 @@ def profile_share(pieces: list[Piece], coordinate: str) -> float:
     Each channel has its own profile, but for the rope's material, which passes one sensor after the other.
     """
     pooled = coordinate == "material"
-    groups = {"": pieces} if pooled else {column: [p for p in pieces if p.column == column] for column in {p.column for p in pieces}}
+    groups = (
+        {"": pieces} if pooled else {column: [p for p in pieces if p.column == column] for column in {p.column for p in pieces}}
+    )
     left = whole = 0.0
     for group in groups.values():
         edges = _edges(group, coordinate)
@@ -188,4 +199,3 @@ def _explained(phase: Floats, x: Floats, grid: Floats) -> Floats:
     cc, ss, cs, yc, ys = (c * c).sum(1), (s * s).sum(1), (c * s).sum(1), c @ y, s @ y
     determinant = np.maximum(cc * ss - cs * cs, 1e-9 * cc * ss + 1e-300)
     return np.asarray((ss * yc**2 + cc * ys**2 - 2.0 * cs * yc * ys) / determinant)
-

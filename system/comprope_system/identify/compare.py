@@ -6,7 +6,8 @@ the errors of phases, places and bands may be compared with each other and with 
 
 from collections.abc import Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -61,13 +62,13 @@ class ChannelComparison:
         found = {
             "column": self.column, "unit": self.channel.unit, "nrmse": self.nrmse, "rmse": self.rmse / scale,
             "samples": len(self.time), "noise": self.noise / scale, "chi_square_per_sample": self.chi_square,
-            "sprague_geers": {"magnitude": self.sprague_geers.magnitude, "phase": self.sprague_geers.phase, "combined": self.sprague_geers.combined},
+            "sprague_geers": asdict(self.sprague_geers) | {"combined": self.sprague_geers.combined},
             "by_phase": self.by_phase,
             "by_car_position": list(self.by_place),
-            "by_frequency": [{"from": a, "to": b, "nrmse": e} for a, b, e in zip(BANDS[:-1], BANDS[1:], self.by_band, strict=True)],
+            "by_frequency": [{"from": a, "to": b, "nrmse": e} for (a, b), e in zip(pairwise(BANDS), self.by_band, strict=True)],
             "by_order": peaks,
         }  # fmt: skip
-        return plain(found)  # type: ignore[no-any-return]
+        return plain(found)
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class RunComparison:
     def to_json(self) -> dict[str, Any]:
         """As in the contract, with more."""
         found = {"file": self.file, "role": self.role, "nrmse": self.nrmse, "channels": [one.to_json() for one in self.channels]}
-        return plain(found)  # type: ignore[no-any-return]
+        return plain(found)
 
 
 @dataclass(frozen=True)
@@ -110,7 +111,7 @@ class Comparison:
             "fit_nrmse": self.fit_nrmse, "validate_nrmse": self.validate_nrmse, "chi_square_per_sample": self.chi_square,
             "car_position_edges": list(np.linspace(0.0, height, PLACES + 1)),
         }  # fmt: skip
-        return plain(found)  # type: ignore[no-any-return]
+        return plain(found)
 
 
 def compare(campaign: Campaign, executor: Executor, point: Point | None = None) -> Comparison:
@@ -123,7 +124,9 @@ def compared(campaign: Campaign, predictions: Predictions) -> Comparison:
     """The comparison of predictions for all runs."""
     runs = tuple(_run(campaign, run, predictions) for run in campaign.runs)
     by_role = {role: nrmse(campaign, campaign.of_role(role), predictions) for role in ("fit", "validate")}
-    return Comparison(campaign, predictions, runs, nrmse(campaign, campaign.runs, predictions), by_role["fit"], by_role["validate"])
+    return Comparison(
+        campaign, predictions, runs, nrmse(campaign, campaign.runs, predictions), by_role["fit"], by_role["validate"]
+    )
 
 
 def _run(campaign: Campaign, run: Run, predictions: Predictions) -> RunComparison:
@@ -131,7 +134,8 @@ def _run(campaign: Campaign, run: Run, predictions: Predictions) -> RunCompariso
     height = campaign.model.shaft.height
     angle = sheave_angle(campaign, run)
     channels = [
-        _channel(run, channel, measured[column], predictions[run.file, column], angle, height) for column, channel in campaign.channels.items()
+        _channel(run, channel, measured[column], predictions[run.file, column], angle, height)
+        for column, channel in campaign.channels.items()
     ]
     return RunComparison(run.file, run.role, tuple(channels), overall(one.nrmse for one in channels))
 

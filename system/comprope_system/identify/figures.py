@@ -1,5 +1,6 @@
 """Pictures of comparison, diagnosis and added effects."""
 
+import itertools
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -57,10 +58,12 @@ def where(comparison: Comparison) -> Figure:
     """Error of each channel over the car's position and over frequency, root mean square over the runs."""
     figure, (left, right) = panels(2, height=3.2)
     edges = np.linspace(0.0, comparison.campaign.model.shaft.height, PLACES + 1)
-    bands = [f"{a:g}–{b:g}" if np.isfinite(b) else f"over {a:g}" for a, b in zip(BANDS[:-1], BANDS[1:], strict=True)]
+    bands = [f"{a:g}–{b:g}" if np.isfinite(b) else f"over {a:g}" for a, b in itertools.pairwise(BANDS)]
     for k, column in enumerate(comparison.campaign.channels):
         own = [one for run in comparison.runs for one in run.channels if one.column == column]
-        left.stairs(100.0 * _mean([one.by_place for one in own]), edges, color=COLOURS[k % len(COLOURS)], linewidth=1.4, label=column)
+        left.stairs(
+            100.0 * _mean([one.by_place for one in own]), edges, color=COLOURS[k % len(COLOURS)], linewidth=1.4, label=column
+        )
         right.plot(bands, 100.0 * _mean([one.by_band for one in own]), "o-", color=COLOURS[k % len(COLOURS)], markersize=4)
     label(left, "car's position [m]", "error / measured variation [%]")
     label(right, "frequency [Hz]", "")
@@ -102,7 +105,9 @@ def ranking(entries: Sequence[Mapping[str, float]], names: Sequence[str], plant:
     left.set_yticks(places, names)
     left.set_xlim(0.0, 1.0)
     right.plot([100.0 * one["error_after"] for one in entries], places, "o", color=FIRST, label="fit runs")
-    right.plot([100.0 * one["validate_error_after"] for one in entries], places, "D", color=SECOND, markersize=5, label="held out")
+    right.plot(
+        [100.0 * one["validate_error_after"] for one in entries], places, "D", color=SECOND, markersize=5, label="held out"
+    )
     for value, colour in zip(plant, (FIRST, SECOND), strict=True):
         right.axvline(100.0 * value, color=colour, linewidth=0.9, linestyle="--")
     right.set_yticks(places, [""] * len(names))

@@ -11,7 +11,6 @@ from .campaign import Campaign
 from .compare import Comparison, compare
 from .diagnose import Diagnosis, diagnose
 from .fit import Fitted
-from .hypotheses import NUISANCES
 from .plain import plain
 from .point import Point
 from .present import grouped, name_of
@@ -56,14 +55,15 @@ class Journey:
     def to_json(self) -> dict[str, Any]:
         """Steps, shares and the final fit."""
         found = {
-            "verdict_kind": self.last.kind, "effects": list(grouped(self.added.fitted.hypothesis, self.added.fitted.effect_coefficients)),
+            "verdict_kind": self.last.kind,
+            "effects": list(grouped(self.added.fitted.hypothesis, self.added.fitted.effect_coefficients)),
             "steps": [{"name": s.name, "fit": s.fit, "validate": s.validate, "misfit_per_datum": s.misfit} for s in self.steps],
             "bought": [{"name": name, "share": fit, "validate_share": held} for name, fit, held in self.bought()],
             "pruned": list(self.pruned),
             "without": {one.effect: one.fitted.misfit / max(len(self.last.problem.data), 1) for one in self.without},
             **self.added.to_json(),
         }  # fmt: skip
-        return plain(found)  # type: ignore[no-any-return]
+        return plain(found)
 
 
 def _share(fall: float, whole: float) -> float:
@@ -83,7 +83,7 @@ def journey(campaign: Campaign, executor: Executor, say: Say = lambda _: None, m
             break
         new = last.ranking[0]
         say(f"{new.hypothesis.effect}, with all others")
-        fitted = fit_new(ground, new.hypothesis, new.fitted.coefficients[len(NUISANCES) :], fitted)
+        fitted = fit_new(ground, new.hypothesis, new.fitted.coefficients, fitted)
         steps.append(_step(ground, _name(last), fitted, executor))
     names = set(grouped(fitted.hypothesis, fitted.effect_coefficients))
     fitted, without = prune(ground, fitted, say)
@@ -100,4 +100,3 @@ def _step(ground: Ground, name: str, fitted: Fitted, executor: Executor) -> Step
 def _name(found: Diagnosis) -> str:
     top = found.ranking[0].hypothesis
     return " + ".join(name_of(part) for part in (top.parts or (top,)))
-

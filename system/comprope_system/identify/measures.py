@@ -1,5 +1,6 @@
 """Measures of how a prediction differs from a measurement: in size and phase, by place, by frequency, by order of turning."""
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,7 +69,7 @@ def longest_stretch(time: Floats, values: Floats) -> tuple[Floats, Floats]:
         return t, x
     steps = np.diff(t)
     cuts = [0, *(np.flatnonzero(steps > 5.0 * np.median(steps)) + 1), len(t)]
-    first, last = max(zip(cuts[:-1], cuts[1:], strict=True), key=lambda pair: pair[1] - pair[0])
+    first, last = max(itertools.pairwise(cuts), key=lambda pair: pair[1] - pair[0])
     return t[first:last], x[first:last]
 
 

@@ -26,6 +26,7 @@ SHARES = (0.9, 0.4)  # of the shaft's height
 SPEEDS = (1.0, 0.6)  # of the speed of the runs there are
 BEFORE, AFTER = 2.0, 6.0  # s at rest
 SAMPLING = 0.02  # s
+SURE = 0.95  # probability above which no further run is asked for
 
 
 @dataclass(frozen=True)
@@ -41,17 +42,24 @@ class Proposal:
     def told(self) -> str:
         """One line."""
         way = "up" if self.end > self.start else "down"
-        return f"{way} from {self.start:.3g} m to {self.end:.3g} m at {self.speed:.3g} m/s with {self.weight:g} times the sheave's weight"
+        trip = f"{way} from {self.start:.3g} m to {self.end:.3g} m at {self.speed:.3g} m/s"
+        return f"{trip} with {self.weight:g} times the sheave's weight"
 
     def to_json(self) -> dict[str, Any]:
         """Everything, in SI units."""
         return {
-            "sheave_weight_factor": self.weight, "start": self.start, "end": self.end, "speed": self.speed, "distance": self.distance,
+            "sheave_weight_factor": self.weight, "start": self.start, "end": self.end, "speed": self.speed,
+            "distance": self.distance,
         }  # fmt: skip
 
 
+def unsettled(diagnosis: Diagnosis) -> bool:
+    """Whether another run could change the verdict."""
+    return (diagnosis.kind != "adequate" and max(diagnosis.probabilities.values()) < SURE) or diagnosis.kind == "unknown_effect"
+
+
 def rivals(diagnosis: Diagnosis) -> tuple[tuple[str, Fitted], tuple[str, Fitted]] | None:
-    """The two best explanations that were fitted on the full model, the model without an effect among them; None if there is one only."""
+    """The two best fits on the full model, that without an effect among them; None if there is one only."""
     fitted = [(one.hypothesis.effect, one.fitted) for one in diagnosis.ranking if one.refined]
     found = sorted([*fitted, ("nothing missing", diagnosis.none)], key=lambda one: one[1].misfit)
     return (found[0], found[1]) if len(found) > 1 else None
@@ -85,14 +93,14 @@ def candidates(campaign: Campaign) -> list[tuple[Proposal, Run]]:
     for weight, share, speed, up in product(WEIGHTS, SHARES, SPEEDS, (True, False)):
         reach = min(share * height, highest - lowest)
         ends = (lowest, lowest + reach) if up else (highest, highest - reach)
-        one = Proposal(weight, *ends, min(speed * top, (0.5 * pull * reach) ** 0.5), 0.0)
+        one = Proposal(weight, *ends, min(speed * top, (0.6 * pull * reach) ** 0.5), 0.0)
         found.append((one, _run(campaign, one, pull)))
     return found
 
 
 def _run(campaign: Campaign, one: Proposal, pull: float) -> Run:
     ramp, way = one.speed / pull, abs(one.end - one.start)
-    cruise = max(way / one.speed - 2.0 * ramp, 0.1)
+    cruise = way / one.speed - 1.5 * ramp
     phases = np.array([0.5 * ramp, 0.5 * ramp, 0.5 * ramp, cruise, 0.5 * ramp, 0.5 * ramp, 0.5 * ramp])
     trip = Trip((jerk_limited(one.start, one.end - one.start, BEFORE, phases),), 0.0, "profile")
     time = np.arange(0.0, trip.rest_after + AFTER, SAMPLING)
@@ -120,4 +128,3 @@ def _noise(campaign: Campaign, column: str) -> float:
     """A channel's noise in its unit where none is stated: a hundredth of how it varies."""
     spread: Sequence[float] = [float(np.nanstd(run.values[column])) for run in campaign.runs]
     return max(0.01 * float(np.median(spread)) / campaign.channels[column].scale, 1e-9)
-

@@ -14,8 +14,8 @@ from .prune import Without
 from .results import Judged, ranking
 
 HOW = (
-    "Errors are root mean squares over the standard deviation of the measured channel in its run. χ² per sample is the mean square "
-    "of what is left over that of the noise: near 1 there is nothing left to explain."
+    "Errors are root mean squares over the standard deviation of the measured channel in its run. χ² per sample is the "
+    "mean square of what is left over that of the noise: near 1 there is nothing left to explain."
 )
 
 
@@ -78,15 +78,15 @@ def save_diagnosis(path: Path, judged: Judged, clues: Sequence[Clue], standing: 
         Section("orders", "What turns with the sheave", [order_picture(judged.best)]),
     ]
     if clues:
-        sections.insert(3, Section("clues", "What the rest is locked to", clue_blocks(clues, standing)))
+        sections.insert(3, Section("clues", "What the model's error is locked to", clue_blocks(clues, standing)))
     if proposals:
         sections.append(Section("next", "The next run to measure", next_blocks(judged, proposals)))
     save_page(path, f"{found.campaign.name}: which effect is missing", lead[0], sections)
 
 
 PLANT = (
-    "A model without an effect that acts bends its plant's parameters to make up for it. Parameters that moved by several of their usual "
-    "deviations are a sign that something is still missing."
+    "A model without an effect that acts bends its plant's parameters to make up for it. Parameters that moved by several "
+    "of their usual deviations are a sign that something is still missing."
 )
 
 
@@ -102,7 +102,9 @@ def ranking_blocks(judged: Judged) -> list[Block]:
 def unseen_blocks(judged: Judged) -> list[Block]:
     """Least detectable sizes and pairs that cannot be told apart."""
     pairs = [f"{a} and {b}" for a, b in judged.diagnosis.alike]
-    told = f"Not to be told apart with these data: {'; '.join(pairs)}." if pairs else "No two effects look the same in these data."
+    told = (
+        f"Not to be told apart with these data: {'; '.join(pairs)}." if pairs else "No two effects look the same in these data."
+    )
     return [told, texts.least_table(judged)]
 
 
@@ -120,10 +122,13 @@ def before_after(before: Comparison, after: Comparison) -> list[Block]:
 def clue_blocks(clues: Sequence[Clue], standing: float) -> list[Block]:
     """Bars and sentences about what the residual follows."""
     method = (
-        "Profiles come from all runs but one and are tried on that one; a sinusoid in time or in the sheave's angle may begin anywhere in each "
-        "run. A residual force along the rope is not estimated."
+        "Profiles come from all runs but one and are tried on that one; a sinusoid in time or in the sheave's angle may "
+        "begin anywhere in each run. A residual force along the rope is not estimated."
     )
-    return [*(f"{text[0].upper()}{text[1:]}." for text in hints(list(clues), standing)), Picture("clues", figures.clue_bars(clues), method)]
+    return [
+        *(f"{text[0].upper()}{text[1:]}." for text in hints(list(clues), standing)),
+        Picture("clues", figures.clue_bars(clues), method),
+    ]
 
 
 def next_blocks(judged: Judged, proposals: Sequence[Proposal]) -> list[Block]:
@@ -149,7 +154,9 @@ def added_sections(added: Added) -> list[Section]:
     stages = {"as it stood": added.before, "plant refitted": added.refitted, f"with {added.effect}": added.after}
     fit, held = [one.fit_nrmse for one in stages.values()], [one.validate_nrmse for one in stages.values()]
     return [
-        Section("bought", "What it bought", [Picture("bought", figures.stairs(list(stages), fit, held)), texts.fall_table(stages)]),
+        Section(
+            "bought", "What it bought", [Picture("bought", figures.stairs(list(stages), fit, held)), texts.fall_table(stages)]
+        ),
         Section("values", "Fitted values", [texts.value_table(added.effects), texts.value_table(added.plant)]),
         Section("picture", "Before and after", before_after(added.before, added.after)),
         Section("orders", "What turns with the sheave, after", [order_picture(added.after)]),
@@ -160,10 +167,9 @@ def save_journey(path: Path, found: Journey) -> None:
     """The page of `comprope journey`."""
     names = [one.name for one in found.steps]
     stairs = figures.stairs(names, [one.fit for one in found.steps], [one.validate for one in found.steps])
-    rows = [(name, texts.percent(fit), texts.percent(held)) for name, fit, held in found.bought()]
     steps: list[Block] = [
         Picture("steps", stairs, "The error after each step."),
-        Table(("step", "share of the fall, fit runs", "held out"), rows, "What each step bought"),
+        texts.bought_table(found),
         without_table(found.without, len(found.last.problem.data)),
     ]
     sections = [Section("steps", "What each effect bought", steps), *added_sections(found.added)[1:]]

@@ -23,5 +23,11 @@ def phases(trip: Trip, time: Floats) -> dict[str, Mask]:
         before = np.ones(len(time), bool)
     after = (time >= trip.rest_after) & ~before
     moving = ~before & ~after
-    masks = (before, moving & (index < fast[0]), moving & (index >= fast[0]) & (index <= fast[-1]), moving & (index > fast[-1]), after)
+    masks = (
+        before,
+        moving & (index < fast[0]),
+        moving & (index >= fast[0]) & (index <= fast[-1]),
+        moving & (index > fast[-1]),
+        after,
+    )
     return dict(zip(PHASES, masks, strict=True))

@@ -33,7 +33,10 @@ def effect_values(model: RopeModel) -> dict[str, float]:
 def present(campaign: Campaign) -> tuple[Hypothesis | None, Floats]:
     """All effects of the campaign's model as one hypothesis, None if it has none, and their coefficients."""
     values = effect_values(campaign.model)
-    names = sorted({key.split(".")[1] for key in values}, key=lambda name: (name in INSTRUMENT, list(REGISTRY).index(name) if name in REGISTRY else 0))
+    names = sorted(
+        {key.split(".")[1] for key in values},
+        key=lambda name: (name in INSTRUMENT, list(REGISTRY).index(name) if name in REGISTRY else 0),
+    )
     found = [one for name in names for one in _as_hypotheses(name, values, campaign.channels)]
     return joined([one for one, _ in found]), np.array([c for _, own in found for c in own], float)
 
@@ -46,9 +49,15 @@ def joined(parts: Sequence[Hypothesis]) -> Hypothesis | None:
     return whole
 
 
-def _as_hypotheses(name: str, values: Mapping[str, float], channels: Mapping[str, Channel]) -> list[tuple[Hypothesis, list[float]]]:
+def _as_hypotheses(
+    name: str, values: Mapping[str, float], channels: Mapping[str, Channel]
+) -> list[tuple[Hypothesis, list[float]]]:
     if name in INSTRUMENT:
-        return [(one, coefficients_of(one, values)) for one in of_instruments(channels) if one.effect == name and one.directions[0].name in values]
+        return [
+            (one, coefficients_of(one, values))
+            for one in of_instruments(channels)
+            if one.effect == name and one.directions[0].name in values
+        ]
     own = {key: value for key, value in values.items() if key.startswith(f"effects.{name}.")}
     tried = [_at(one, own) for one in of_effect(REGISTRY[name], (own.get(f"effects.{name}.frequency", 1.0),))]
     return [min(((one, coefficients_of(one, own)) for one in tried), key=_strain)]

@@ -34,7 +34,8 @@ def sign(group: Sequence[Record]) -> Iterator[str]:
     seen = [one.gain() for one in group if np.isfinite(one.gain()[0])]
     if seen and max(c for _, c in seen) < 0.0 and min(c for _, c in seen) < -ALIKE:
         name = group[0].channel.column
-        yield f"{name}: moves against the model in every run (gain {np.median([g for g, _ in seen]):.2f}): its sign is probably wrong"
+        gain = float(np.median([g for g, _ in seen]))
+        yield f"{name}: moves against the model in every run (gain {gain:.2f}): its sign is probably wrong"
 
 
 def unit(group: Sequence[Record]) -> Iterator[str]:
@@ -64,7 +65,8 @@ def noise(group: Sequence[Record]) -> Iterator[str]:
     seen = float(np.median(known)) / channel.scale
     if not 0.6 < seen / channel.noise < 1.6:
         told = "more" if seen > channel.noise else "less"
-        yield f"{channel.column}: noise = {channel.noise:g} {channel.unit} is stated, but at rest it is {seen:.2g} {channel.unit}, {told} than that"
+        stated = f"{channel.column}: noise = {channel.noise:g} {channel.unit} is stated"
+        yield f"{stated}, but at rest it is {seen:.2g} {channel.unit}, {told} than that"
 
 
 def seen_noise(record: Record) -> float | None:
@@ -127,7 +129,8 @@ def gaps(group: Sequence[Record]) -> Iterator[str]:
             extra[one.run.file] = share
     name = group[0].channel.column
     if missing:
-        yield f"{name}: empty where the rope should be in view: {', '.join(f'{100 * s:.2g} % in {f}' for f, s in missing.items())}"
+        told = ", ".join(f"{100 * share:.2g} % in {file}" for file, share in missing.items())
+        yield f"{name}: empty where the rope should be in view: {told}"
     if extra:
         yield f"{name}: shows values where the rope's end has passed the sensor, in {', '.join(extra)}; they are left out"
 
@@ -148,8 +151,9 @@ def _of_run(run: Run) -> Iterator[str]:
     elif run.time[-1] < run.trip.rest_after:
         yield f"{run.file}: the record ends before the car stops"
     if run.trip.kind != "rest" and run.trip.rest_before - run.time[0] < 0.5:
-        yield f"{run.file}: only {run.trip.rest_before - run.time[0]:.2f} s at rest before the trip: values that count from rest are uncertain"
+        rest = run.trip.rest_before - run.time[0]
+        yield f"{run.file}: only {rest:.2f} s at rest before the trip: values that count from rest are uncertain"
     if run.trip.noise > 5e-3:
         yield f"{run.file}: car_position scatters by {1e3 * run.trip.noise:.1f} mm about a smooth trip"
     if run.trip.kind == "spline":
-        yield f"{run.file}: the car does not follow a jerk-limited profile; its trip is a smoothed curve, less sure in its accelerations"
+        yield f"{run.file}: the car follows no jerk-limited profile; its trip is a smoothed curve, less sure in its accelerations"

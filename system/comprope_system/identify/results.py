@@ -61,7 +61,7 @@ def to_json(judged: Judged) -> dict[str, Any]:
         "data": count,
         "remarks": list(judged.remarks),
     }  # fmt: skip
-    return plain(found)  # type: ignore[no-any-return]
+    return plain(found)
 
 
 def ranking(judged: Judged) -> list[dict[str, Any]]:
@@ -87,8 +87,11 @@ def _entry(judged: Judged, k: int, one: Candidate) -> dict[str, Any]:
         "parameters": short_names(parts[0], values), "estimated": not one.refined, "misfit_per_datum": misfit(judged, one),
         "visible_share": one.visible, "least_detectable": short_names(parts[0], one.least),
     }  # fmt: skip
-    with_it = {name: short_names(name, values) for name in {key.split(".")[1] for key in values} - {parts[0]}}
-    return entry | ({"together_with": with_it} if with_it else {})
+    # Beside several effects at once there are values that an effect cannot do without: airflow has no force without drag.
+    others = {name: short_names(name, values) for name in {key.split(".")[1] for key in values} - {parts[0]}}
+    with_it = {name: own for name, own in others.items() if name in parts}
+    brought = {name: own for name, own in others.items() if name not in parts}
+    return entry | ({"together_with": with_it} if with_it else {}) | ({"brings": brought} if brought else {})
 
 
 def misfit(judged: Judged, one: Candidate) -> float:

@@ -1,6 +1,7 @@
 """Results in words and tables, for the screen and for pages alike."""
 
 from collections.abc import Mapping, Sequence
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from .results import Judged, biases, full_name, misfit, ranking
 from .values import Value
 
 SHOWN = 6  # effects in short tables
+WIDTH = 100  # of lines on a terminal
 
 
 def percent(share: float | None) -> str:
@@ -25,6 +27,16 @@ def percent(share: float | None) -> str:
 def number(value: float | None) -> str:
     """A number of three digits; a dash where there is none."""
     return "–" if value is None or not np.isfinite(value) else f"{value:.3g}"
+
+
+def wrapped(*sentences: str) -> list[str]:
+    """Sentences as lines for a terminal."""
+    return [line for sentence in sentences for line in wrap(sentence, WIDTH)]
+
+
+def chance(probability: float) -> str:
+    """A probability; none is certain."""
+    return "over 0.99" if probability > 0.99 else f"{probability:.2f}" if probability >= 0.01 else "under 0.01"
 
 
 # -- comparison --------------------------------------------------------------------------------------
@@ -49,7 +61,9 @@ def error_table(one: Comparison) -> Table:
         for channel in run.channels:
             size = f"{number(channel.rmse / channel.channel.scale)} {channel.channel.unit}"
             phases = (percent(channel.by_phase.get(name)) for name in PHASES)
-            rows.append((f"{run.file} ({run.role})", channel.column, percent(channel.nrmse), size, number(channel.chi_square), *phases))
+            rows.append(
+                (f"{run.file} ({run.role})", channel.column, percent(channel.nrmse), size, number(channel.chi_square), *phases)
+            )
     return Table(head, rows)
 
 
@@ -74,10 +88,10 @@ def verdict(judged: Judged) -> list[str]:
     if found.verdict:
         return [_missing(judged), *_twins(found)]
     if found.kind == "adequate":
-        told = f"Nothing is missing: with its plant parameters refitted the model is as near as noise allows (probability {surely['adequate']:.2g})."
-        return [told]
+        told = "Nothing is missing: with its plant parameters refitted the model is as near as noise allows"
+        return [f"{told} (probability {chance(surely['adequate'])})."]
     return [
-        f"Something is missing, and none of the known effects explains it (probability {surely['unknown']:.2g}).",
+        f"Something is missing, and none of the known effects explains it (probability {chance(surely['unknown'])}).",
         "See what the rest is locked to: that is the clue.",
     ]
 
@@ -91,7 +105,7 @@ def _missing(judged: Judged) -> str:
     left = misfit(judged, found.ranking[0])
     rest = "" if left < 1.5 else f" It leaves {number(left)} times what noise would: perhaps something more is missing."
     return (
-        f"{what}: {name}{more} with probability {top['probability']:.2g}. With it the error falls from "
+        f"{what}: {name}{more} with probability {chance(top['probability'])}. With it the error falls from "
         f"{percent(top['error_before'])} to {percent(top['error_after'])} on the fit runs and from "
         f"{percent(top['validate_error_before'])} to {percent(top['validate_error_after'])} on runs held out.{rest}"
     )
@@ -108,12 +122,14 @@ def ranking_table(judged: Judged, most: int = 100) -> Table:
     head = ("effect", "probability", "fit runs", "held out", "left / noise", "parameters")
     rows = [
         (
-            named(one), f"{one['probability']:.3f}", percent(one["error_after"]), percent(one["validate_error_after"]),
+            named(one), chance(one["probability"]), percent(one["error_after"]), percent(one["validate_error_after"]),
             number(one["misfit_per_datum"]), parameters(one) + (" (estimated)" if one["estimated"] else ""),
         )
         for one in ranking(judged)[:most]
     ]  # fmt: skip
-    return Table(head, rows, f"Errors with the effect; now {percent(judged.before.fit_nrmse)} and {percent(judged.before.validate_nrmse)}")
+    return Table(
+        head, rows, f"Errors with the effect; now {percent(judged.before.fit_nrmse)} and {percent(judged.before.validate_nrmse)}"
+    )
 
 
 def named(entry: Mapping[str, Any]) -> str:
@@ -156,7 +172,9 @@ def value_table(values: Mapping[str, Value]) -> Table:
 def fall_table(stages: Mapping[str, Comparison]) -> Table:
     """Errors of each run at each stage."""
     first = next(iter(stages.values()))
-    rows = [(f"{run.file} ({run.role})", *(percent(one.runs[k].nrmse) for one in stages.values())) for k, run in enumerate(first.runs)]
+    rows = [
+        (f"{run.file} ({run.role})", *(percent(one.runs[k].nrmse) for one in stages.values())) for k, run in enumerate(first.runs)
+    ]
     rows += [
         ("all fit runs", *(percent(one.fit_nrmse) for one in stages.values())),
         ("all runs held out", *(percent(one.validate_nrmse) for one in stages.values())),
@@ -170,7 +188,9 @@ def plain_table(table: Table) -> list[str]:
     widths = [max(len(row[k]) for row in cells) for k in range(len(table.head))]
     lines = []
     for row in cells:
-        padded = (cell.rjust(w) if table.numeric(k) else cell.ljust(w) for k, (cell, w) in enumerate(zip(row, widths, strict=True)))
+        padded = (
+            cell.rjust(w) if table.numeric(k) else cell.ljust(w) for k, (cell, w) in enumerate(zip(row, widths, strict=True))
+        )
         lines.append("  ".join(padded).rstrip())
     return lines
 
@@ -178,9 +198,9 @@ def plain_table(table: Table) -> list[str]:
 def added(one: Added) -> str:
     """One sentence: what an effect did to the errors."""
     return (
-        f"With {one.effect} the error falls from {percent(one.before.fit_nrmse)} to {percent(one.after.fit_nrmse)} on the fit runs and from "
-        f"{percent(one.before.validate_nrmse)} to {percent(one.after.validate_nrmse)} on runs held out; refitting the plant alone gives "
-        f"{percent(one.refitted.fit_nrmse)} and {percent(one.refitted.validate_nrmse)}."
+        f"With {one.effect} the error goes from {percent(one.before.fit_nrmse)} to {percent(one.after.fit_nrmse)} on the "
+        f"fit runs and from {percent(one.before.validate_nrmse)} to {percent(one.after.validate_nrmse)} on runs held out; "
+        f"refitting the plant alone gives {percent(one.refitted.fit_nrmse)} and {percent(one.refitted.validate_nrmse)}."
     )
 
 
@@ -191,6 +211,14 @@ def travelled(found: Journey) -> str:
     end = {"adequate": "nothing is missing beyond noise", "unknown_effect": "something is left that no known effect explains"}
     added_ones = f"Added {', '.join(names)}" if names else "No effect was added"
     return (
-        f"{added_ones}: the error fell from {percent(first.fit)} to {percent(last.fit)} on the fit runs and from {percent(first.validate)} "
-        f"to {percent(last.validate)} on runs held out; {end.get(found.last.kind, 'more may be missing')}."
+        f"{added_ones}: the error went from {percent(first.fit)} to {percent(last.fit)} on the fit runs and from "
+        f"{percent(first.validate)} to {percent(last.validate)} on runs held out; "
+        f"{end.get(found.last.kind, 'more may be missing')}."
     )
+
+
+def bought_table(found: Journey) -> Table:
+    """Errors after each step of a journey, and each step's share of the fall."""
+    shares = [("", ""), *((percent(fit), percent(held)) for _, fit, held in found.bought())]
+    rows = [(one.name, percent(one.fit), percent(one.validate), *share) for one, share in zip(found.steps, shares, strict=True)]
+    return Table(("step", "fit runs", "held out", "share of the fall", "held out"), rows)

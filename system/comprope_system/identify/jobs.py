@@ -1,0 +1,212 @@
+"""What the commands compare, diagnose, add and journey do: read, compute, print, write."""
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+from comprope.errors import InputError
+from comprope.rope.modelfile import dump
+from comprope.whole import require_writable
+
+from ..executors import workers
+from . import texts
+from .campaign import Campaign, load_campaign
+from .plain import save_json
+
+Say = Callable[[str], None]
+PAGES = (".html", ".htm")
+
+
+@dataclass(frozen=True)
+class Request:
+    """The campaign's folder, files to write, and processes (all cores if None)."""
+
+    campaign: Path
+    json: Path | None = None
+    report: Path | None = None
+    model: Path | None = None
+    jobs: int | None = None
+
+
+def compare(request: Request) -> Any:
+    """`comprope compare`."""
+    from .compare import compare as comparison_of
+    from .remarks import remarks
+
+    campaign = _begin(request)
+    with progress() as say, threads() as executor:
+        say("driving the model as the car was driven")
+        found = comparison_of(campaign, executor)
+    told = remarks(campaign, found.predictions)
+    _tell(texts.wrapped(texts.compared(found)), texts.plain_table(texts.error_table(found)), _listed("About the data:", told))
+    if request.json:
+        save_json(request.json, found.to_json() | {"remarks": told})
+    if request.report:
+        from .pages import save_comparison
+
+        save_comparison(request.report, found, told)
+    _end(request)
+    return found
+
+
+def diagnose(request: Request) -> Any:
+    """`comprope diagnose`."""
+    from .clues import clues, standing_of
+    from .diagnose import diagnose as diagnosis_of
+    from .next_run import next_runs, unsettled
+    from .point import Point
+    from .present import effect_values
+    from .results import judge, to_json
+
+    campaign = _begin(request)
+    base = Point(effects=effect_values(campaign.model))
+    with progress() as say, processes(request.jobs) as executor:
+        found = diagnosis_of(campaign, executor, say, base)
+        say("the runs held out")
+        judged = judge(found, executor, base)
+        say("the next run to measure")
+        proposals = next_runs(found, executor) if unsettled(found) else []
+    left = [] if found.kind == "adequate" else clues(campaign, judged.refitted.predictions)
+    standing = standing_of(campaign, judged.refitted.predictions)
+    _tell(*_diagnosed(judged, left, standing, proposals))
+    if request.json:
+        locked = [{"coordinate": one.coordinate, "share": one.share, "peak": one.peak} for one in left]
+        save_json(request.json, to_json(judged) | {"clues": locked, "next_runs": [one.to_json() for one in proposals[:5]]})
+    if request.report:
+        from .pages import save_diagnosis
+
+        save_diagnosis(request.report, judged, left, standing, proposals)
+    _end(request)
+    return judged
+
+
+def _diagnosed(judged: Any, left: Sequence[Any], standing: float, proposals: Sequence[Any]) -> Iterator[list[str]]:
+    """What is printed of a diagnosis, paragraph by paragraph."""
+    from .clues import hints
+    from .results import full_name
+
+    found = judged.diagnosis
+    yield texts.wrapped(*texts.verdict(judged))
+    yield texts.plain_table(texts.ranking_table(judged, texts.SHOWN))
+    yield _listed("About the data:", judged.remarks)
+    if found.kind == "unknown_effect":
+        yield _listed("What is left:", hints(list(left), standing))
+    if proposals:
+        yield [f"Next run to measure: {proposals[0].told()}."]
+    if found.verdict:
+        yield [f"To add it: comprope add {found.campaign.folder} {full_name(found.ranking[0].hypothesis)} --out MODEL.toml"]
+
+
+def add(request: Request, effect: str) -> Any:
+    """`comprope add`."""
+    from .add import add as add_to
+    from .add import heading
+    from .present import alternatives
+
+    campaign = _begin(request)
+    alternatives(effect, campaign, ())
+    with progress() as say, processes(request.jobs) as executor:
+        found = add_to(campaign, effect, executor, say)
+    stages = {"as it stood": found.before, "plant refitted": found.refitted, "with it": found.after}
+    _tell(
+        texts.wrapped(texts.added(found)),
+        texts.plain_table(texts.fall_table(stages)),
+        texts.plain_table(texts.value_table(found.effects)),
+    )
+    if request.model:
+        dump(found.model, request.model, heading(found))
+    if request.json:
+        save_json(request.json, found.to_json())
+    if request.report:
+        from .pages import save_added
+
+        save_added(request.report, found)
+    _end(request)
+    return found
+
+
+def journey(request: Request) -> Any:
+    """`comprope journey`."""
+    from .add import heading
+    from .journey import journey as travel
+
+    campaign = _begin(request)
+    with progress() as say, processes(request.jobs) as executor:
+        found = travel(campaign, executor, say)
+    tables = (texts.bought_table(found), texts.value_table(found.added.effects))
+    _tell(texts.wrapped(texts.travelled(found)), *map(texts.plain_table, tables))
+    if request.model:
+        dump(found.model, request.model, heading(found.added))
+    if request.json:
+        save_json(request.json, found.to_json())
+    if request.report:
+        from .pages import save_journey
+
+        save_journey(request.report, found)
+    _end(request)
+    return found
+
+
+# -- around the work ---------------------------------------------------------------------------------
+
+
+def _begin(request: Request) -> Campaign:
+    """Refuse files that could not be written, then read the campaign."""
+    for path in (request.json, request.report, request.model):
+        if path:
+            require_writable(path)
+    if request.report and request.report.suffix.lower() not in PAGES:
+        raise InputError(f"{request.report}: a name that ends in {' or '.join(PAGES)} is accepted for a page")
+    return load_campaign(request.campaign)
+
+
+def _end(request: Request) -> None:
+    _tell([f"written {path}" for path in (request.model, request.json, request.report) if path])
+
+
+def _listed(title: str, items: Sequence[str]) -> list[str]:
+    return [title, *(f"  {item}" for item in items)] if items else []
+
+
+def _tell(*paragraphs: list[str]) -> None:
+    told = ["\n".join(lines) for lines in paragraphs if lines]
+    sys.stdout.write("".join(f"{text}\n\n" for text in told))
+
+
+@contextmanager
+def progress() -> Iterator[Say]:
+    """On a terminal, what is being done and for how long."""
+    console = Console(file=sys.stderr)
+    parts = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+    with Progress(*parts, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task("starting", total=None)
+        yield lambda text: bar.update(task, description=text)
+
+
+@contextmanager
+def threads() -> Iterator[Executor]:
+    """Threads of this process, for a few replays: their kernels run side by side."""
+    from comprope.rope.compose import compiled
+
+    compiled()  # once, before the threads ask for it
+    with ThreadPoolExecutor(os.cpu_count() or 1) as executor:
+        yield executor
+
+
+@contextmanager
+def processes(jobs: int | None) -> Iterator[Executor]:
+    """Processes, for hundreds of replays; with one job, this process."""
+    with workers(jobs) as executor:
+        if executor is not None:
+            yield executor
+        else:
+            with ThreadPoolExecutor(1) as own:
+                yield own
