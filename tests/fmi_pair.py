@@ -4,7 +4,7 @@ import math
 import random
 import shutil
 from collections.abc import Callable, Sequence
-from ctypes import byref
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,7 @@ from fmpy.fmi2 import (
 from comprope.errors import CompropeError, InputError
 from comprope.fmi.engine import ModelInterface
 from comprope.fmi.run import Run
+
 
 class Oracle:
     """What an instance should do: a `Run` that stays out of action after an error and, if `strict`, knows the order of calls."""
@@ -177,8 +178,8 @@ class Pair:
         """Read every variable; outputs come last, so that a refusal of theirs is one of the others as well."""
         for kind, getter in (("real", "Real"), ("integer", "Integer"), ("boolean", "Boolean")):
             chosen = [place for place, one in enumerate(self.oracle.interface.variables) if one.kind == kind]
-            found = self.both(lambda get=getattr(self.instance, f"get{getter}"), chosen=chosen: get(chosen),
-                              lambda kind=kind, chosen=chosen: self.oracle.run.read(kind, chosen))  # fmt: skip
+            get = getattr(self.instance, f"get{getter}")
+            found = self.both(partial(get, chosen), partial(self.oracle.run.read, kind, chosen))
             assert found is None or list(found[0]) == list(found[1])
             assert found is None or all(math.isfinite(value) for value in found[0])
 
@@ -186,7 +187,7 @@ class Pair:
         """Read by a reference that may not exist, as every type in turn."""
         for kind in ("real", "integer", "boolean"):
             getter = getattr(self.instance, f"get{kind.capitalize()}")
-            self.both(lambda getter=getter: getter([reference]), lambda kind=kind: self.oracle.run.read(kind, [reference]))
+            self.both(partial(getter, [reference]), partial(self.oracle.run.read, kind, [reference]))
 
     def save(self) -> None:
         found = self.both(self.instance.getFMUState, lambda: self.oracle.run.save("one"))
@@ -265,5 +266,7 @@ def _set_any(pair: Pair, random: random.Random) -> None:
     value = random.choice(ODD)
     if low is not None and high is not None and random.random() < 0.7:
         small = one.name in ("shaft.height", "shaft.pit", "rope.element_length", "solver.step")
-        value = float(one.start or low) if small else random.choice((low, high, random.uniform(low, high), float(one.start or 0.0)))
+        value = (
+            float(one.start or low) if small else random.choice((low, high, random.uniform(low, high), float(one.start or 0.0)))
+        )
     pair.put([one.name], [value])

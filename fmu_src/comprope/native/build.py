@@ -9,9 +9,9 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from ..errors import InputError
 from ..fmi.build import DESCRIPTION, Origin, digest, zipped
 from ..fmi.check import interface_problems
-from ..errors import InputError
 from ..fmi.description import completed
 from ..fmi.engine import ModelInterface
 from ..fmi.face import slave_class
@@ -22,6 +22,7 @@ from ..whole import whole_file
 from . import link
 from .ir import kernels, sizes
 from .machine import TARGETS, machine_code
+from .reference import reference
 from .tables import kernels_header, model_source
 
 _OWN_EFFECTS = "comprope.rope.effects."
@@ -38,7 +39,7 @@ def build_native(interface: ModelInterface, out: Path, origin: Origin, targets: 
     effects, chosen = effect_files(), list(targets) or link.linkable()
     code, header = kernels(effects), kernels_header(interface, sizes(effects))
     compiled = {name: machine_code(code, TARGETS[name]) for name in chosen}
-    content = _documentation(interface, origin, link.systems(chosen))
+    content = reference(interface) | _documentation(interface, origin, link.systems(chosen))
     parts = {f"kernels/{name}": one for name, one in compiled.items()} | content
     guid = _identity(interface, origin.version, header, parts)
     content[DESCRIPTION] = description(interface, origin.version, guid)

@@ -67,7 +67,8 @@ bool check_step(double time, double dt, double reached, double stop, Text *probl
         return false;
     }
     if (!(fabs(time - reached) <= tolerance)) {
-        text_add(problems, "step from %.12g s: the time reached is %.12g s, and only a step from there is accepted; ", time, reached);
+        text_add(problems, "step from %.12g s: the time reached is %.12g s, and only a step from there is accepted; ",
+                 time, reached);
         text_add(problems, "to go back, restore a saved state");
         return false;
     }

@@ -1,4 +1,5 @@
-/* One rope as the face sees it: opened at rest, stepped, shown, saved. `values` are those of all variables of the model. */
+/* One rope as the face sees it: opened at rest, stepped, shown, saved. `values` are those of all variables of the
+ * model. */
 #ifndef ENGINE_H
 #define ENGINE_H
 

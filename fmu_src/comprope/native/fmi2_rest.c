@@ -2,14 +2,19 @@
 
 #include "instance.h"
 
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count, const fmi2Integer orders[], const fmi2Real values[])
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count,
+                                       const fmi2Integer orders[], const fmi2Real values[])
 {
     Instance *instance = instance_called(c);
     (void)references, (void)count, (void)orders, (void)values;
-    return instance ? instance_refuse(instance, "derivatives of inputs cannot be set; velocities and accelerations are inputs of their own") : fmi2Error;
+    return instance ? instance_refuse(
+                          instance,
+                          "derivatives of inputs cannot be set; velocities and accelerations are inputs of their own")
+                    : fmi2Error;
 }
 
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count, const fmi2Integer orders[], fmi2Real values[])
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count,
+                                        const fmi2Integer orders[], fmi2Real values[])
 {
     Instance *instance = instance_called(c);
     (void)references, (void)count, (void)orders, (void)values;
@@ -17,7 +22,8 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t unknown_count,
-                                        const fmi2ValueReference knowns[], size_t known_count, const fmi2Real changes[], fmi2Real results[])
+                                        const fmi2ValueReference knowns[], size_t known_count, const fmi2Real changes[],
+                                        fmi2Real results[])
 {
     Instance *instance = instance_called(c);
     (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)changes, (void)results;
@@ -27,7 +33,8 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
 fmi2Status fmi2CancelStep(fmi2Component c)
 {
     Instance *instance = instance_called(c);
-    return instance ? instance_refuse(instance, "no step is under way: each call of fmi2DoStep ends with its step done") : fmi2Error;
+    return instance ? instance_refuse(instance, "no step is under way: each call of fmi2DoStep ends with its step done")
+                    : fmi2Error;
 }
 
 /* A question about the status that has no answer here is no error: FMI says to discard it. */

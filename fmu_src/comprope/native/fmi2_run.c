@@ -20,12 +20,13 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t count, co
     return instance_called(c) ? fmi2OK : fmi2Error;
 }
 
-fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_given, fmi2Real tolerance, fmi2Real start, fmi2Boolean stop_given,
-                               fmi2Real stop)
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_given, fmi2Real tolerance, fmi2Real start,
+                               fmi2Boolean stop_given, fmi2Real stop)
 {
     Instance *instance = instance_called(c);
     (void)tolerance_given, (void)tolerance; /* accuracy is the affair of the model's own parameters */
-    return instance ? instance_finish(instance, run_plan(&instance->run, start, stop_given ? stop : INFINITY)) : fmi2Error;
+    return instance ? instance_finish(instance, run_plan(&instance->run, start, stop_given ? stop : INFINITY))
+                    : fmi2Error;
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)

@@ -82,23 +82,32 @@ static double no_value(const void *values, size_t place)
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference references[], size_t count, const fmi2Real values[])
 {
     Instance *instance = asked(c, references, count, values);
-    return instance ? instance_finish(instance, run_write(&instance->run, REAL, references, count, real_value, values)) : fmi2Error;
+    return instance ? instance_finish(instance, run_write(&instance->run, REAL, references, count, real_value, values))
+                    : fmi2Error;
 }
 
-fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference references[], size_t count, const fmi2Integer values[])
+fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference references[], size_t count,
+                          const fmi2Integer values[])
 {
     Instance *instance = asked(c, references, count, values);
-    return instance ? instance_finish(instance, run_write(&instance->run, INTEGER, references, count, integer_value, values)) : fmi2Error;
+    return instance
+               ? instance_finish(instance, run_write(&instance->run, INTEGER, references, count, integer_value, values))
+               : fmi2Error;
 }
 
-fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference references[], size_t count, const fmi2Boolean values[])
+fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference references[], size_t count,
+                          const fmi2Boolean values[])
 {
     Instance *instance = asked(c, references, count, values);
-    return instance ? instance_finish(instance, run_write(&instance->run, BOOLEAN, references, count, boolean_value, values)) : fmi2Error;
+    return instance
+               ? instance_finish(instance, run_write(&instance->run, BOOLEAN, references, count, boolean_value, values))
+               : fmi2Error;
 }
 
-fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference references[], size_t count, const fmi2String values[])
+fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference references[], size_t count,
+                         const fmi2String values[])
 {
     Instance *instance = asked(c, references, count, values);
-    return instance ? instance_finish(instance, run_write(&instance->run, STRING, references, count, no_value, values)) : fmi2Error;
+    return instance ? instance_finish(instance, run_write(&instance->run, STRING, references, count, no_value, values))
+                    : fmi2Error;
 }

@@ -63,18 +63,19 @@ static Memory memory_of(const fmi2CallbackFunctions *functions)
     return (Memory){calloc, free};
 }
 
-fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources, const fmi2CallbackFunctions *functions,
-                              fmi2Boolean visible, fmi2Boolean logging)
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
 {
     const char *why = NULL;
     (void)resources, (void)visible, (void)logging;
     if (!functions) {
         return NULL;
     }
-    why = !name || !*name                       ? "an instance needs a name"
-          : type != fmi2CoSimulation            ? "this FMU is for co-simulation only"
-          : !guid || strcmp(guid, MODEL_GUID)   ? "the GUID is not this FMU's: binary and modelDescription.xml do not belong together"
-                                                : NULL;
+    why = !name || !*name            ? "an instance needs a name"
+          : type != fmi2CoSimulation ? "this FMU is for co-simulation only"
+          : !guid || strcmp(guid, MODEL_GUID)
+              ? "the GUID is not this FMU's: binary and modelDescription.xml do not belong together"
+              : NULL;
     const Memory memory = memory_of(functions);
     Instance *instance = why ? NULL : take_zeros(memory, sizeof *instance);
     if (!why && (!instance || !run_create(&instance->run, memory))) {

@@ -70,7 +70,8 @@ def _code() -> str:
     whole: Any = llvm.parse_assembly("")
     for name in CALLED:
         entry = compiled()[name]
-        function = numba.njit(entry.signature, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)(entry.function)
+        options: Any = OPTIONS | {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        function: Any = numba.njit(entry.signature, **options)(entry.function)
         (made,) = function.overloads.values()
         module = llvm.parse_assembly(function.inspect_llvm(made.signature.args))
         module.get_function(made.fndesc.llvm_func_name).name = PREFIX + name

@@ -62,8 +62,9 @@ def _linked(name: str, kernels: bytes, generated: Mapping[str, str], target: Tar
         (stage / "kernels.o").write_bytes(kernels)
         output = f"{name}.{target.extension}"
         sources = sorted(path for path in files if path.endswith(".c"))
-        command = [*_compiler(target), *_OPTIONS, *_extras(target, output), "-I.", f"-I{HEADERS}", *sources, "kernels.o", "-o", output]
-        result = subprocess.run([*command, "-lm"], cwd=stage, capture_output=True, text=True, check=False)
+        options = [*_OPTIONS, *_extras(target, output), "-I.", f"-I{HEADERS}"]
+        command = [*_compiler(target), *options, *sources, "kernels.o", "-o", output, "-lm"]
+        result = subprocess.run(command, cwd=stage, capture_output=True, text=True, check=False)
         if result.returncode:
             raise InputError(f"{output} cannot be linked for {target.folder}: {_last_error(result.stderr)}")
         return (stage / output).read_bytes()

@@ -23,12 +23,13 @@ class Target:
     zig: str
 
 
+_MACOS = "macOS (Intel and Apple)"
 # The oldest processors of each kind: wider vector units gain little, and every one gives the same bits.
 TARGETS = {
     "linux": Target("Linux", "linux64", "so", "x86_64-unknown-linux-gnu", "x86-64", "x86_64-linux-gnu.2.17"),
     "windows": Target("Windows", "win64", "dll", "x86_64-w64-windows-gnu", "x86-64", "x86_64-windows-gnu"),
-    "macos-x86_64": Target("macOS (Intel and Apple)", "darwin64", "dylib", "x86_64-apple-macosx11.0.0", "x86-64", "x86_64-macos.11.0"),
-    "macos-arm64": Target("macOS (Intel and Apple)", "darwin64", "dylib", "arm64-apple-macosx11.0.0", "apple-m1", "aarch64-macos.11.0"),
+    "macos-x86_64": Target(_MACOS, "darwin64", "dylib", "x86_64-apple-macosx11.0.0", "x86-64", "x86_64-macos.11.0"),
+    "macos-arm64": Target(_MACOS, "darwin64", "dylib", "arm64-apple-macosx11.0.0", "apple-m1", "aarch64-macos.11.0"),
 }
 
 
@@ -36,7 +37,8 @@ def machine_code(code: str, target: Target) -> bytes:
     """An object file of the module `code`, optimised without reordering any sum."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    machine = llvm.Target.from_triple(target.triple).create_target_machine(cpu=target.cpu, opt=3, reloc="pic", codemodel="default")
+    kind = llvm.Target.from_triple(target.triple)
+    machine = kind.create_target_machine(cpu=target.cpu, opt=3, reloc="pic", codemodel="default")
     module = llvm.parse_assembly(code)
     module.triple, module.data_layout = target.triple, str(machine.target_data)
     for function in module.functions:

@@ -11,7 +11,7 @@ enum role { PARAMETER, INPUT, OUTPUT };
 typedef struct {
     enum kind kind;
     enum role role;
-    const char *name;     /* with its role, as in "parameter sheave.mass" */
+    const char *name; /* with its role, as in "parameter sheave.mass" */
     double start, minimum, maximum;
     const char *unit;     /* with a space before it, or empty */
     const char *accepted; /* as in "0.1 to 20000 kg is accepted" */

@@ -185,8 +185,8 @@ static bool acceptable(Run *run, const Variable *variable, double value)
     return false;
 }
 
-bool run_write(Run *run, enum kind kind, const unsigned *references, size_t count, double (*value)(const void *values, size_t place),
-               const void *values)
+bool run_write(Run *run, enum kind kind, const unsigned *references, size_t count,
+               double (*value)(const void *values, size_t place), const void *values)
 {
     bool fine = true;
     for (size_t k = 0; k < count; k++) {

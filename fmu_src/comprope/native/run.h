@@ -1,9 +1,9 @@
 /* One instance: values by reference and an engine once there is one.
  *
- * Before the run begins the engine is made when an output is asked for, and made anew after a value has changed. A refused
- * call changes nothing but puts the instance out of action: after an error there are no steps and no outputs until it is
- * reset or a saved state is restored, so that not even an importer that overlooks errors can take old values for new ones.
- * Every function returns whether it succeeded; if not, `problems` says why.
+ * Before the run begins the engine is made when an output is asked for, and made anew after a value has changed. A
+ * refused call changes nothing but puts the instance out of action: after an error there are no steps and no outputs
+ * until it is reset or a saved state is restored, so that not even an importer that overlooks errors can take old
+ * values for new ones. Every function returns whether it succeeded; if not, `problems` says why.
  */
 #ifndef RUN_H
 #define RUN_H
@@ -56,8 +56,8 @@ bool run_terminate(Run *run);
 
 /* Read or write values by reference, all or none; all must be of one kind. */
 bool run_readable(Run *run, enum kind kind, const unsigned *references, size_t count);
-bool run_write(Run *run, enum kind kind, const unsigned *references, size_t count, double (*value)(const void *values, size_t place),
-               const void *values);
+bool run_write(Run *run, enum kind kind, const unsigned *references, size_t count,
+               double (*value)(const void *values, size_t place), const void *values);
 
 /* Make the engine from the present values if there is none. */
 bool run_make_engine(Run *run);

@@ -133,7 +133,8 @@ bool state_to_bytes(Run *run, const State *state, char *bytes, size_t size)
         return false;
     }
     if (size < state->size - HEAD) {
-        text_add(&run->problems, "saved state: needs %lu bytes, %lu are given", (unsigned long)(state->size - HEAD), (unsigned long)size);
+        text_add(&run->problems, "saved state: needs %lu bytes, %lu are given", (unsigned long)(state->size - HEAD),
+                 (unsigned long)size);
         return false;
     }
     memcpy(bytes, (const char *)state + HEAD, state->size - HEAD);

@@ -1,4 +1,5 @@
-/* Saved states of an instance: taken, restored, turned into bytes and back, bit for bit. See `Run` for the conventions. */
+/* Saved states of an instance: taken, restored, turned into bytes and back, bit for bit. See `Run` for the conventions.
+ */
 #ifndef STATE_H
 #define STATE_H
 

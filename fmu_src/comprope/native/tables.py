@@ -18,6 +18,7 @@ from ..rope.slots import DECLARED
 from .ir import CALLED, PREFIX
 
 _HEADING = "/* Generated from the declarations of the model; not to be edited. */\n"
+_INCLUDES = "#include <stddef.h>\n#include <stdint.h>\n"
 # What makes a rope's state: the arrays of `state.State`, in that order, and the memory of its inputs.
 _STATE = ("q0", "v0", "a0", "f0", "h0", "P0", "E", "start", "count", "time", "past")
 _WINDOWS = ("u", "options", "spots")  # lie among the values of the variables
@@ -38,13 +39,12 @@ def model_source(interface: ModelInterface, guid: str) -> str:
 
 
 def _row(one: Variable) -> str:
-    low, high = ("-INFINITY", "INFINITY")
-    if one.kind != "boolean":
-        low, high = (f"{_number(bound)}" if bound is not None else none for bound, none in ((one.minimum, low), (one.maximum, high)))
+    low = "-INFINITY" if one.minimum is None else _number(one.minimum)
+    high = "INFINITY" if one.maximum is None else _number(one.maximum)
     unit = "" if one.unit == "1" else f" {one.unit}"
     words = (f"{one.role} {one.name}", unit, range_text(one), one.help)
     name, unit, accepted, help = (quoted(text) for text in words)
-    start = _number(float(one.start or 0.0))  # type: ignore[arg-type]
+    start = _number(float(one.start or 0.0))
     return f"{{{one.kind.upper()}, {one.role.upper()}, {name}, {start}, {low}, {high}, {unit}, {accepted}, {help}}}"
 
 
@@ -55,8 +55,7 @@ def _number(value: float) -> str:
 
 def quoted(text: str) -> str:
     """A string of C; what is not plain ASCII stands as its bytes in UTF-8, in octal."""
-    plain = set(map(ord, " !#$%&'()*+,-./:;<=>@[]^_`{|}~")) | set(range(ord("0"), ord("9") + 1)) | set(b"ABCDEFGHIJKLMNOPQRSTUVWXYZ")
-    plain |= set(b"abcdefghijklmnopqrstuvwxyz")
+    plain = set(range(ord(" "), ord("~") + 1)) - set(b'"\\?')
     return '"' + "".join(chr(byte) if byte in plain else f"\\{byte:03o}" for byte in text.encode()) + '"'
 
 
@@ -69,7 +68,7 @@ def kernels_header(interface: ModelInterface, sizes: Mapping[int, Mapping[str, i
     used = {name for entry in CALLED for name in compiled()[entry].names if kind(name) == "array"} - set(_WINDOWS)
     chosen = {n: {name: (dict(found) | outputs)[name] for name in sorted(used)} for n, found in sizes.items()}
     parts = [_constants(interface), _slots(interface), _arrays(chosen), _words(), *(_call(name) for name in CALLED)]
-    return f"{_HEADING}#ifndef KERNELS_H\n#define KERNELS_H\n\n#include <stdint.h>\n#include <stddef.h>\n\n" + "\n".join(parts) + "\n#endif\n"
+    return f"{_HEADING}#ifndef KERNELS_H\n#define KERNELS_H\n\n{_INCLUDES}\n" + "\n".join(parts) + "\n#endif\n"
 
 
 def _places(interface: ModelInterface) -> dict[str, int]:

@@ -19,8 +19,33 @@ from typing import Any
 import numba
 
 from . import (
-    acting, band, contact, display, dynamics, elastica, ends, following, glance, hooks, jit, journey, lanes, ledger, march, newmark,
-    sensors, slope, slots, standing, statics, tangent, travel, vector, words, work, zone,
+    acting,
+    band,
+    contact,
+    display,
+    dynamics,
+    elastica,
+    ends,
+    following,
+    glance,
+    hooks,
+    jit,
+    journey,
+    lanes,
+    ledger,
+    march,
+    newmark,
+    sensors,
+    slope,
+    slots,
+    standing,
+    statics,
+    tangent,
+    travel,
+    vector,
+    words,
+    work,
+    zone,
 )  # fmt: skip
 from .effects import REGISTRY
 from .effects.base import Effect, Kernel
@@ -137,7 +162,7 @@ def bound(names: Mapping[str, Any], module: str) -> dict[str, Any]:
     copy = {key: value for key, value in names.items() if not key.startswith("__")} | {"__name__": module}
     for key, value in names.items():
         function = getattr(value, "py_func", value)
-        compilable = value is not function or jit.PURE and isinstance(function, types.FunctionType)
+        compilable = value is not function or (jit.PURE and isinstance(function, types.FunctionType))
         if compilable and function.__module__ not in (jit.__name__, module):
             copy[key] = jit.kernel(types.FunctionType(function.__code__, copy, function.__name__))
     return copy

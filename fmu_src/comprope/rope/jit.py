@@ -28,7 +28,7 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 INTEGERS = {"n", "m", "steps", "state_size", "effects", "side", "directions", "blocks", "parameters", "sensors"}
-FLAGS = {"tangent"}
+FLAGS = {"tangent", "exact"}
 NUMBERS = {"t", "t0", "dt", "s", "ck", "cc", "x", "element"}
 
 

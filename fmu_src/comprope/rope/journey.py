@@ -14,7 +14,7 @@ from .words import FINE, TOO_LONG
 @kernel
 def march_tangent(
     n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count,
-    state_size, effects, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1,
+    state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1,
     moves, w1, e0, f1, fc, hp, hi, hb, hd, D,
 ):  # fmt: skip
     """What `march.march` does, to the same bits, and all directions beside it."""
@@ -28,7 +28,7 @@ def march_tangent(
                 tally(n, p, h, q0, q, v, a, f, w, touch, power, effects, P0, P, E)
                 copy(state_size, h0, hp)
                 accept(n, state_size, q, v, a, f, h1, q0, v0, a0, f0, h0)
-                step_directions(n, t0 + s * dt, h, dt, s, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v,
+                step_directions(n, t0 + s * dt, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v,
                                 a, f, w, A, L, B, Z, touch, power, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1,
                                 path1, moves, w1, e0, f1, fc, hi, hb, hd, D)  # fmt: skip
                 done += size
@@ -44,7 +44,7 @@ def march_tangent(
 @kernel
 def travel_tangent(
     n, dt, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count, time, state_size, effects,
-    told, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0,
+    told, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0,
     f1, fc, hp, hi, hb, hd, D,
 ):  # fmt: skip
     """What `travel.travel` does, and all directions beside it."""
@@ -54,7 +54,7 @@ def travel_tangent(
         return TOO_LONG
     steps = max(1, ceil(share * (1.0 - 1e-9)))
     reached = march_tangent(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E,
-                            count, state_size, effects, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way,
+                            count, state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way,
                             dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D)  # fmt: skip
     if reached == 1.0:
         time[0] = t0 + dt

@@ -35,10 +35,15 @@ class SensitiveRope:
     """A rope with its sensitivities along some directions.
 
     `at` gives, for a direction, values of parameters that change nothing until the direction's amplitude is
-    there: the phase or the frequency of an effect that the model is without.
+    there: the phase or the frequency of an effect that the model is without. `exact` factors the tangent once more in
+    each step: that costs about a third of a plain step and takes most of the error of some tenths of a per cent, at the sheave of a
+    few per cent, away.
     """
 
-    def __init__(self, model: Base, directions: Mapping[str, Direction], at: Mapping[str, Direction] | None = None) -> None:
+    def __init__(
+        self, model: Base, directions: Mapping[str, Direction], at: Mapping[str, Direction] | None = None, *, exact: bool = False
+    ) -> None:
+        self.exact = exact
         self.rope = CompensationRope(model)
         self.names = tuple(directions)
         p, count = self.rope.p, len(directions)
@@ -134,7 +139,7 @@ class SensitiveRope:
         if path_changes is not None:
             self._arrays["dpath"][:] = np.asarray(path_changes, float).ravel()
             self._arrays["guided"][:] = 1.0
-        require_fine(self._advance(dt=dt), self.rope._do.told)
+        require_fine(self._advance(dt=dt, exact=self.exact), self.rope._do.told)
 
     # -- what it shows ---------------------------------------------------------------------------
 

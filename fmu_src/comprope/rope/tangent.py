@@ -7,8 +7,8 @@ predictor as the step's own, dq = dq0 + h (dv0 + h/2 da0), dv = dv0 + h da0, one
     da = da0 + r,  dv += gamma h r,  dq += beta h^2 r,
 
 where J is the tangent of the step and D the directional derivative of the forces (see `slope`), which is
-exact: that J may be of an earlier iterate errs in the correction alone, and only away from the groove. The next dc follows from the
-balance of the step. What the ends do with dp is read off their paths by differences.
+exact. J may be that of the iterate which was factored, with the contact's share renewed: that errs in the
+correction alone; or it is renewed as a whole (`exact`). The next dc follows from the balance of the step. What the ends do with dp is read off their paths by differences.
 
 Directions go in blocks of LANES: number (node i, component c) of direction k in dq, dv, da, dc and D sits at
 (k // LANES 2 m + 2 i + c) LANES + k % LANES, as `lanes` has it. `dp` has the parameters' changes in
@@ -21,6 +21,7 @@ from .dynamics import forces, node_mass
 from .ends import PATH, PATHS, place_ends
 from .jit import kernel
 from .lanes import solve_lanes
+from .newmark import renew
 from .slope import ahead, contact_alone, contact_slope, elongations, rope_slope
 from .slots import ALPHA, ELEMENT, RHO, J, M, R
 from .vector import LANES, put, take
@@ -92,6 +93,16 @@ def renew_zone(n, h, p, q, v, fc, touch, A, L, B, Z):
     contact_alone(n, p, q, v, fc, touch, Z, ck, cc, True)
     fill(n, A, Z, B, first, last)
     factor_zone(2 * (last - first + 1), B)
+
+
+@kernel
+def renew_all(n, t, h, p, q, v, h0, fc, f1, touch, w, A, L, B, Z, r, hb, power):
+    """Set fc to the contact forces of the state reached, and factor the whole tangent there."""
+    alpha = p[ALPHA]
+    ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
+    forces(n, t, p, q, v, w, f1, touch, h0, hb, power, Z, ck, cc, True)
+    renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch)
+    contact_alone(n, p, q, v, fc, touch, Z, 0.0, 0.0, False)
 
 
 @kernel
@@ -198,7 +209,7 @@ def correct_block(n, p, dp, d, base, h, a0, D, dq, dv, da, dc):
 
 @kernel
 def step_directions(
-    n, t, h, dt, s, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, A, L, B, Z, touch, power, at,
+    n, t, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, A, L, B, Z, touch, power, at,
     toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi, hb, hd, D,
 ):  # fmt: skip
     """Carry all directions over an accepted step of length h that has ended at (q0, v0, a0); hp is the history before it.
@@ -206,10 +217,13 @@ def step_directions(
     q, v, a, f are free for use; the workspace w is of that state, or within the step's tolerance of it.
     """
     m, stride = n + 1, parameters * LANES
-    if differenced(directions, way):
-        forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
+    if exact:
+        renew_all(n, t, h, p, q0, v0, hp, fc, f1, touch, w, A, L, B, Z, moves, hb, power)
+    else:
+        if differenced(directions, way):
+            forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
+        renew_zone(n, h, p, q0, v0, fc, touch, A, L, B, Z)
     elongations(n, p, v0, w, e0)
-    renew_zone(n, h, p, q0, v0, fc, touch, A, L, B, Z)
     for k in range(directions):
         if guided[k] != 0.0:
             place_direction(n, t, k, h, parameters, path, dt, s, at, toward, limit, dpath, p1, path1, q0, v0, a0, q, v, a, dq, dv, da)

@@ -1,6 +1,6 @@
 """Add an effect to a model: fitted on the fit runs with the plant's parameters, judged on the runs held out."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from typing import Any
@@ -27,6 +27,21 @@ Say = Callable[[str], None]
 
 
 @dataclass(frozen=True)
+class Held(Problem):
+    """A problem in which plant parameters that runs state are believed: a model file could not change them."""
+
+    held: frozenset[str] = frozenset()
+
+    def predictions(self, *points: Point) -> list[Predictions]:
+        """As `Problem.predictions`, whatever the points say of what is held."""
+        return super().predictions(*(replace(one, plant=self.free(one.plant)) for one in points))
+
+    def free(self, plant: Mapping[str, float]) -> dict[str, float]:
+        """Coefficients of what is not held."""
+        return {name: value for name, value in plant.items() if name not in self.held}
+
+
+@dataclass(frozen=True)
 class Ground:
     """What every fit to a campaign begins with: its weighed data, derivatives by the plant, and the plant refitted alone.
 
@@ -34,7 +49,7 @@ class Ground:
     """
 
     campaign: Campaign
-    problem: Problem
+    problem: Held
     nominal: Predictions
     plant: Floats
     fitted: Fitted
@@ -45,7 +60,8 @@ def prepare(campaign: Campaign, executor: Executor, say: Say = lambda _: None) -
     runs = campaign.of_role("fit")
     say("the model as it is")
     nominal = gathered(runs, submit(campaign, runs, Point(), executor))
-    problem = pose(campaign, runs, executor, nominal)
+    posed = pose(campaign, runs, executor, nominal)
+    problem = Held(posed.campaign, posed.runs, posed.parts, posed.data, executor, frozenset(set_by_runs(campaign)))
     say("plant parameters")
     plant = by_plant(problem, Point(), problem.whitened(nominal))
     hypothesis, coefficients = present(campaign)
@@ -71,6 +87,11 @@ class Added:
     refitted: Comparison
     after: Comparison
 
+    def parameters(self) -> dict[str, Any]:
+        """Fitted values by their short names; of several effects each in its own table."""
+        values, names = {key: one.value for key, one in self.effects.items()}, self.effect.split(" + ")
+        return short_names(names[0], values) if len(names) == 1 else {name: short_names(name, values) for name in names}
+
     def to_json(self) -> dict[str, Any]:
         """Errors before and after on fit and validate runs, and what was fitted."""
         errors = {"as_it_stood": self.before, "plant_refitted": self.refitted, "with_effect": self.after}
@@ -78,7 +99,7 @@ class Added:
             "effect": self.effect, "was_in_the_model": self.was_there,
             "error_before": self.before.fit_nrmse, "error_after": self.after.fit_nrmse,
             "validate_error_before": self.before.validate_nrmse, "validate_error_after": self.after.validate_nrmse,
-            "parameters": short_names(self.effect, {key: one.value for key, one in self.effects.items()}),
+            "parameters": self.parameters(),
             "errors": {name: {"fit": one.fit_nrmse, "validate": one.validate_nrmse} for name, one in errors.items()},
             "runs": [
                 {"file": a.file, "role": a.role, "error_before": a.nrmse, "error_after": b.nrmse}
@@ -133,6 +154,8 @@ def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fi
     old = [part for part, _ in known.hypothesis.shares(known.effect_coefficients)] if known.hypothesis else []
     count = len(NUISANCES) + len(new.directions)
     begin = start if len(start) > count else np.concatenate([start, known.coefficients[len(NUISANCES) :]])
+    begin = np.array(begin)
+    begin[[k for k, one in enumerate(NUISANCES) if one.name in ground.problem.held]] = 0.0
     fitted = refine(ground.problem, joined([new, *old]), begin, Point(), ground.plant)
     return _shaped(ground, new, old, fitted)
 

@@ -104,6 +104,8 @@ def ranking(entries: Sequence[Mapping[str, float]], names: Sequence[str], plant:
     left.barh(places, [one["probability"] for one in entries], color=FIRST, height=0.6)
     left.set_yticks(places, names)
     left.set_xlim(0.0, 1.0)
+    for axes in (left, right):
+        axes.set_ylim(-0.6, len(names) - 0.4)
     right.plot([100.0 * one["error_after"] for one in entries], places, "o", color=FIRST, label="fit runs")
     right.plot(
         [100.0 * one["validate_error_after"] for one in entries], places, "D", color=SECOND, markersize=5, label="held out"

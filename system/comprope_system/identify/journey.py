@@ -1,8 +1,11 @@
 """From a model that fails to one that does not: diagnose, add, and again, until nothing is missing; then prune."""
 
+from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from comprope.rope.effects import RopeModel
 
@@ -11,6 +14,7 @@ from .campaign import Campaign
 from .compare import Comparison, compare
 from .diagnose import Diagnosis, diagnose
 from .fit import Fitted
+from .hypotheses import NUISANCES
 from .plain import plain
 from .point import Point
 from .present import grouped, name_of
@@ -81,10 +85,9 @@ def journey(campaign: Campaign, executor: Executor, say: Say = lambda _: None, m
         last = diagnose(campaign, executor, say, Point(effects=dict(fitted.point.effects)))
         if last.verdict is None or len(steps) > most + 1:
             break
-        new = last.ranking[0]
-        say(f"{new.hypothesis.effect}, with all others")
-        fitted = fit_new(ground, new.hypothesis, new.fitted.coefficients, fitted)
-        steps.append(_step(ground, _name(last), fitted, executor))
+        for name, step in _each(ground, last, fitted, say):
+            fitted = step
+            steps.append(_step(ground, name, fitted, executor))
     names = set(grouped(fitted.hypothesis, fitted.effect_coefficients))
     fitted, without = prune(ground, fitted, say)
     kept = list(grouped(fitted.hypothesis, fitted.effect_coefficients))
@@ -97,6 +100,11 @@ def _step(ground: Ground, name: str, fitted: Fitted, executor: Executor) -> Step
     return Step(name, found.fit_nrmse, found.validate_nrmse, fitted.misfit / max(len(ground.problem.data), 1))
 
 
-def _name(found: Diagnosis) -> str:
-    top = found.ranking[0].hypothesis
-    return " + ".join(name_of(part) for part in (top.parts or (top,)))
+def _each(ground: Ground, found: Diagnosis, fitted: Fitted, say: Say) -> Iterator[tuple[str, Fitted]]:
+    """The verdict's effects added one after the other, so that each shows what it buys."""
+    best = found.ranking[0].fitted
+    plant = best.coefficients[: len(NUISANCES)]
+    for part, own in found.ranking[0].hypothesis.shares(best.effect_coefficients):
+        say(f"{name_of(part)}, with all others")
+        fitted = fit_new(ground, part, np.concatenate([plant, own]), fitted)
+        yield name_of(part), fitted

@@ -13,10 +13,11 @@ from .diagnose import Diagnosis
 from .journey import Journey
 from .phases import PHASES
 from .results import Judged, biases, full_name, misfit, ranking
-from .values import Value
+from .values import Value, unit_of
 
 SHOWN = 6  # effects in short tables
 WIDTH = 100  # of lines on a terminal
+NOTHING = 1e-9  # parameters below it are told as zero
 
 
 def percent(share: float | None) -> str:
@@ -138,9 +139,14 @@ def named(entry: Mapping[str, Any]) -> str:
 
 
 def parameters(entry: Mapping[str, Any]) -> str:
-    """Parameters of an entry of the ranking."""
-    groups = [entry["parameters"], *entry.get("together_with", {}).values()]
-    return ", ".join(f"{name} {value:.3g}" for group in groups for name, value in group.items())
+    """Parameters of an entry of the ranking, with their units."""
+    groups = {entry["effect"]: entry["parameters"]} | entry.get("together_with", {})
+    return ", ".join(sized(effect, name, value) for effect, group in groups.items() for name, value in group.items())
+
+
+def sized(effect: str, name: str, value: float) -> str:
+    """One parameter of an effect with its unit."""
+    return f"{name} {value if abs(value) > NOTHING else 0.0:.3g}{unit_of(effect, name)}"
 
 
 def least_table(judged: Judged) -> Table:
@@ -148,9 +154,10 @@ def least_table(judged: Judged) -> Table:
     rows = []
     for one in judged.diagnosis.ranking:
         if not one.hypothesis.parts:
+            effect = one.hypothesis.effect
             sizes = {key.split(".", 2)[2]: value for key, value in one.least.items() if "phase" not in key}
-            told = ", ".join(f"{name} {value:.2g}" for name, value in sizes.items())
-            rows.append((one.hypothesis.effect, told, percent(one.visible)))
+            told = ", ".join(sized(effect, name, value) for name, value in sizes.items())
+            rows.append((effect, told, percent(one.visible)))
     return Table(("effect", "seen from about", "not mistaken for the plant"), sorted(rows))
 
 

@@ -32,6 +32,8 @@ class Value:
         """The value with its standard deviation, to as many digits as make sense."""
         if not isfinite(self.deviation) or self.deviation <= 0.0:
             return f"{self.value:.4g}"
+        if abs(self.value) < 1e-3 * self.deviation:
+            return f"0 ± {self.deviation:.2g}"
         digits = max(0, int(np.ceil(np.log10(max(abs(self.value), self.deviation) / self.deviation))) + 1)
         return f"{self.value:.{min(max(digits, 2), 6)}g} ± {self.deviation:.2g}"
 
@@ -73,6 +75,13 @@ def _value(key: str, value: float, deviation: float) -> Value:
     return Value(value, deviation, max(value - reach, low), min(value + reach, high))
 
 
+def unit_of(effect: str, name: str) -> str:
+    """The unit of an effect's parameter, with a space before it; nothing for a pure number."""
+    declared = _declared(f"effects.{effect}.{name}")
+    unit = declared.unit if declared else {"sensor_delay": "s"}.get(effect, "1")
+    return "" if unit == "1" else f" {unit.replace('.', '·')}"
+
+
 def _declared(key: str) -> Quantity | None:
     _, name, short = key.split(".", 2)
     return next((one for one in quantities(REGISTRY[name]) if one.name == short), None) if name in REGISTRY else None
@@ -85,7 +94,8 @@ def plant_results(campaign: Campaign, fitted: Fitted, scale: float = 1.0) -> dic
         size = base[one.name] if one.relative else 1.0
         value = max(base[one.name] + size * float(fitted.coefficients[k]), 0.0)
         deviation = abs(size) * scale * float(fitted.deviation[k])
-        found[one.name] = Value(value, deviation, value - CONFIDENCE * deviation, value + CONFIDENCE * deviation, base[one.name])
+        reach = CONFIDENCE * deviation
+        found[one.name] = Value(value, deviation, max(value - reach, 0.0), value + reach, base[one.name])
     return found
 
 

@@ -1,0 +1,103 @@
+"""How long one communication step of 10 ms takes: median, 99.9th percentile and worst, against its 10 ms budget.
+
+    python benchmarks/realtime.py dist/CompensationRope-native.fmu dist/CompensationRope.fmu [--steps 3000]
+
+Each FMU rides the rope of the 50 m tower and of the 200 m building up a trip, in this process, through fmpy: a step is
+setting two positions, stepping and reading all real outputs. The model without an FMU around it comes last.
+"""
+
+# ruff: noqa: T201 -- a table on the terminal is all it makes
+
+import argparse
+import gc
+import math
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
+
+from comprope.fmi.engine import ModelInterface
+from comprope.fmi.run import Run
+from comprope.rope.engine import interface
+from comprope.rope.modelfile import load
+from comprope_system import presets
+
+STEP = 0.01
+SPEEDS = {"tower50": 2.5, "building200": 5.0}  # m/s, at the middle of the trip
+Ride = Callable[[float, tuple[float, float]], None]
+
+
+def through_fmu(path: str, model: ModelInterface) -> Ride:
+    """One step of an FMU whose parameters are those of a model with as many sensors."""
+    description = read_model_description(path)
+    places = {one.name: one.valueReference for one in description.modelVariables}
+    outputs = [one.valueReference for one in description.modelVariables if one.causality == "output" and one.type == "Real"]
+    name = description.coSimulation.modelIdentifier
+    slave = FMU2Slave(guid=description.guid, unzipDirectory=extract(path), modelIdentifier=name, instanceName="one")
+    slave.instantiate()
+    slave.setupExperiment(startTime=0.0)
+    settable = [one for one in model.variables if one.role != "output" and one.kind == "real"]
+    slave.setReal([places[one.name] for one in settable], [one.start for one in settable])
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    ends = [places["car_position"], places["counterweight_position"]]
+
+    def step(time: float, positions: tuple[float, float]) -> None:
+        slave.setReal(ends, positions)
+        slave.doStep(time, STEP)
+        slave.getReal(outputs)
+
+    return step
+
+
+def direct(model: ModelInterface) -> Ride:
+    """One step of the model itself."""
+    run, places = Run(model), {one.name: place for place, one in enumerate(model.variables)}
+    ends = [places["car_position"], places["counterweight_position"]]
+    outputs = [place for place, one in enumerate(model.variables) if one.role == "output" and one.kind == "real"]
+    run.begin()
+
+    def step(time: float, positions: tuple[float, float]) -> None:
+        run.write("real", ends, positions)
+        run.step(time, STEP)
+        run.read("real", outputs)
+
+    return step
+
+
+def durations(step: Ride, height: float, speed: float, steps: int) -> np.ndarray:
+    """Duration of each step [s] along half a cosine up and down the shaft."""
+    turn = math.pi * height / (2.0 * speed)  # s from landing to landing
+    found = np.empty(steps)
+    gc.disable()
+    for count in range(steps):
+        car = 0.5 * height * (1.0 - math.cos(math.pi * count * STEP / turn))
+        begin = time.perf_counter()
+        step(count * STEP, (car, height - car))
+        found[count] = time.perf_counter() - begin
+    gc.enable()
+    return found
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("fmus", nargs="*", metavar="FMU")
+    parser.add_argument("--steps", type=int, default=3000)
+    options = parser.parse_args()
+    print("| rope | run by | median | 99.9th percentile | worst | faster than real time |\n|---|---|---|---|---|---|")
+    for preset, speed in SPEEDS.items():
+        model = interface(load(presets.model_path(preset)))
+        height = next(float(one.start or 0.0) for one in model.variables if one.name == "shaft.height")
+        rides = [(Path(path).stem, through_fmu(path, model)) for path in options.fmus] + [("directly", direct(model))]
+        for name, step in rides:
+            took = 1e3 * durations(step, height, speed, options.steps)
+            middle, late, worst = np.median(took), np.quantile(took, 0.999), took.max()
+            print(f"| {preset} | {name} | {middle:.2f} ms | {late:.2f} ms | {worst:.2f} ms | {10.0 / took.mean():.0f} times |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
