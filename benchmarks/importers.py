@@ -30,8 +30,9 @@ def in_fmpy(paths: list[str], steps: int, dt: float) -> tuple[float, Ends]:
 
     slaves = {}
     for path in paths:
-        name, folder = read_model_description(path).modelName, extract(path)
-        slave = FMU2Slave(guid="", unzipDirectory=folder, modelIdentifier=name, instanceName=name)
+        description, folder = read_model_description(path), extract(path)
+        name = description.coSimulation.modelIdentifier
+        slave = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=name, instanceName=name)
         slave.instantiate()
         slave.setupExperiment(startTime=0.0)
         slave.enterInitializationMode()

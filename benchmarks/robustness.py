@@ -6,8 +6,6 @@ Random calls are compared, bit for bit, with the model run without an FMU. Each 
 of a trip or be refused with a sentence; the table counts what was said.
 """
 
-# ruff: noqa: T201 -- tables on the terminal are all it makes
-
 import argparse
 import random
 import sys

@@ -5,8 +5,6 @@
 The car of the 50 m tower goes from landing to landing at 2.5 m/s, waits, and goes on, at random.
 """
 
-# ruff: noqa: T201 -- a table on the terminal is all it makes
-
 import argparse
 import math
 import random
@@ -57,7 +55,8 @@ def main() -> None:
     slave.setReal([places["rope.element_length"]], [options.element])
     slave.enterInitializationMode()
     slave.exitInitializationMode()
-    ends, shown = [places["car_position"], places["counterweight_position"]], [places["energy_residual"], places["sheave_displacement"]]
+    ends = [places["car_position"], places["counterweight_position"]]
+    shown = [places["energy_residual"], places["sheave_displacement"]]
     begin, per_hour = time.perf_counter(), round(3600.0 / options.step)
     print("| hour | memory | energy residual | sheave | halvings | took |\n|---|---|---|---|---|---|")
     for count, car in enumerate(car_positions(options.step, random.Random(options.seed))):
@@ -67,7 +66,8 @@ def main() -> None:
             residual, sheave = slave.getReal(shown)
             halved = slave.getInteger([places["halvings"]])[0]
             hour, took = (count + 1) // per_hour, time.perf_counter() - begin
-            print(f"| {hour} | {resident():.1f} MB | {residual:.3g} J | {1e3 * sheave:.3f} mm | {halved} | {took:.0f} s |", flush=True)
+            moved = f"{1e3 * sheave:.3f} mm"
+            print(f"| {hour} | {resident():.1f} MB | {residual:.3g} J | {moved} | {halved} | {took:.0f} s |", flush=True)
             if hour >= options.hours:
                 break
     slave.terminate()

@@ -12,15 +12,14 @@ import pytest
 
 from comprope.rope.modelfile import load
 from comprope_system import cli
-from comprope_system.identify.add import added, fit_new, heading, prepare
+from comprope_system.identify.add import heading, prepare
 from comprope_system.identify.campaign import load_campaign
 from comprope_system.identify.clues import clues
 from comprope_system.identify.compare import compare
-from comprope_system.identify.diagnose import diagnose
 from comprope_system.identify.jobs import threads
+from comprope_system.identify.journey import journey
 from comprope_system.identify.measures import ORDERS
 from comprope_system.identify.next_run import candidates, rivals
-from comprope_system.identify.prune import prune
 from comprope_system.identify.results import judge, to_json
 
 from . import virtual_lift
@@ -45,21 +44,21 @@ def comparison(campaign, executor):
 
 
 @pytest.fixture(scope="module")
-def judged(campaign, executor):
-    return judge(diagnose(campaign, executor), executor)
+def travelled(campaign, executor):
+    """Diagnose, add, diagnose again, prune: the whole way."""
+    return journey(campaign, executor)
 
 
 @pytest.fixture(scope="module")
-def ground(campaign, executor):
-    return prepare(campaign, executor)
+def judged(travelled, executor):
+    """The first diagnosis, judged on all runs."""
+    return judge(travelled.diagnoses[0], executor)
 
 
 @pytest.fixture(scope="module")
-def better(ground, judged, executor):
+def better(travelled):
     """The model with what the diagnosis found."""
-    top = judged.diagnosis.ranking[0]
-    fitted = fit_new(ground, top.hypothesis, top.fitted.coefficients, ground.fitted)
-    return added(ground, top.hypothesis.effect, fitted, executor)
+    return travelled.added
 
 
 # -- it fails here -----------------------------------------------------------------------------------
@@ -152,10 +151,15 @@ def test_what_is_there_is_fitted_again_and_not_added_twice(better, executor):
     assert ground.fitted.misfit < 1.1 * better.fitted.misfit
 
 
-def test_pruning_keeps_what_is_needed(better):
-    fitted, looks = prune(better.ground, better.fitted)
-    assert [one.effect for one in looks] == ["sheave_eccentricity"] and not looks[0].could_go
-    assert fitted is better.fitted
+def test_the_journey_ends_there_and_tells_what_each_step_bought(travelled):
+    assert travelled.last.kind == "adequate"
+    assert [one.name for one in travelled.steps] == ["as it stands", "plant refitted", "sheave_eccentricity"]
+    shares = {name: (fit, held) for name, fit, held in travelled.bought()}
+    assert sum(fit for fit, _ in shares.values()) == pytest.approx(1.0)
+    assert shares["sheave_eccentricity"][1] > 0.8  # on the run that was not fitted
+    assert travelled.pruned == () and [one.effect for one in travelled.without] == ["sheave_eccentricity"]
+    assert not travelled.without[0].could_go
+    json.dumps(travelled.to_json(), allow_nan=False)
 
 
 # -- and a lift in which nothing is hidden -----------------------------------------------------------

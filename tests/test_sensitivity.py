@@ -6,6 +6,7 @@ from math import pi
 
 import numpy as np
 import pytest
+
 from comprope.errors import InputError
 from comprope.rope.model import CompensationRope, values_of
 from comprope.rope.modelfile import with_changes
@@ -46,17 +47,21 @@ DIRECTIONS = {
     "guides": {"effects.guide_friction.coulomb_force": 1.0},
     "slip": {"effects.bending_hysteresis.friction_moment": 1.0},
 }
-PRESENT = {
-    "effects.sheave_eccentricity.eccentricity": 1e-3, "effects.bending_hysteresis.friction_moment": 0.5,
-    "effects.bending_hysteresis.yield_curvature": 0.1,
-}  # fmt: skip
+# Effects that are declared but do nothing yet; effects that act already, one of them with a history.
 ABSENT = {
     "effects.bending_hysteresis.yield_curvature": 0.1, "effects.bending_hysteresis.friction_moment": 0.0,
     "effects.building_sway.frequency": 0.3, "effects.building_sway.amplitude": 0.0,
 }  # fmt: skip
-DRAGGED = {"effects.air_drag.drag_coefficient": 1.1, "rope.external_damping": 0.05}
-SHARES = {"drag": 1e-1, "radius": 1e-6, "pit": 1e-6, "slip": 1e-3, "sway": 1e-3, "bent": 1e-3, "guides":1e-3}
-SHARE = 1e-5  # of a parameter: by so much whole runs are differenced, so that hardly a node comes to lie on the sheave or leaves it
+DRAGGED = {
+    "effects.air_drag.drag_coefficient": 1.1, "effects.sheave_eccentricity.eccentricity": 1e-3,
+    "effects.bending_hysteresis.yield_curvature": 0.1, "effects.bending_hysteresis.friction_moment": 0.0,
+}  # fmt: skip
+SLIPPING = {"effects.bending_hysteresis.yield_curvature": 0.1, "effects.bending_hysteresis.friction_moment": 0.5}
+MOTIONS, FORCES = ("cw_low", "car_low", "axle", "turning"), ("weight", "pull")
+# By what share of a parameter whole runs are differenced: little where the mesh moves along the sheave, so that hardly a node
+# comes to touch it that did not; much where the answer is small beside the 1e-8 m to which a time step converges.
+SHARE = 1e-5
+SHARES = {"radius": 1e-6, "pit": 1e-6, "drag": 0.1, "slip": 1e-3, "sway": 1e-3, "bent": 1e-3, "guides": 1e-3}
 
 
 @cache
@@ -68,22 +73,24 @@ def measured() -> Run:
 
 
 @cache
-def sensitivities(changes: tuple[tuple[str, float], ...], names: tuple[str, ...], exact: bool = False) -> dict[str, dict[str, np.ndarray]]:
-    """Derivatives along some directions at the model with changes."""
-    model = with_changes(MODEL, dict(changes))
-    return replay_with_sensitivities(model, measured(), CHANNELS, {name: DIRECTIONS[name] for name in names}, exact=exact)[1]
+def sensitivities(changes: tuple[tuple[str, float], ...], exact: bool) -> dict[str, dict[str, np.ndarray]]:
+    """Derivatives along all directions at the model with changes."""
+    return replay_with_sensitivities(with_changes(MODEL, dict(changes)), measured(), CHANNELS, DIRECTIONS, exact=exact)[1]
 
 
-def differences(changes: dict[str, float], direction: dict[str, float], share: float) -> dict[str, np.ndarray]:
+@cache
+def differences(changes: tuple[tuple[str, float], ...], name: str) -> dict[str, np.ndarray]:
     """Derivatives along a direction by differences of whole runs: central, or from one side where a bound is in the way."""
-    run, base = measured(), values_of(with_changes(MODEL, changes | measured().changes))
+    run, model, direction = measured(), with_changes(MODEL, dict(changes)), DIRECTIONS[name]
+    base = values_of(with_changes(model, run.changes))
     values = {key: base.get(key, DECLARED[key].neutral) for key in direction}
-    step = min(share * max(abs(values[key]), DECLARED[key].nominal) / abs(amount) for key, amount in direction.items())
+    sizes = [max(abs(values[key]), DECLARED[key].nominal) / abs(amount) for key, amount in direction.items()]
+    step = SHARES.get(name, SHARE) * min(sizes)
     bounded = any(values[key] - step * amount < DECLARED[key].minimum for key, amount in direction.items())
 
     def moved(steps: float) -> dict[str, np.ndarray]:
         there = {key: values[key] + steps * step * amount for key, amount in direction.items()}
-        return replay(with_changes(MODEL, changes), replace(run, changes=run.changes | there), CHANNELS).values
+        return replay(model, replace(run, changes=run.changes | there), CHANNELS).values
 
     weights = {0.0: -1.5, 1.0: 2.0, 2.0: -0.5} if bounded else {-1.0: -0.5, 1.0: 0.5}
     runs = {steps: moved(steps) for steps in weights}
@@ -94,16 +101,97 @@ def rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.nanmean(values**2)))
 
 
-def errors(found: dict[str, np.ndarray], expected: dict[str, np.ndarray]) -> dict[str, float]:
-    """Differences over the signal, both rms, by channel."""
+def errors(changes: dict[str, float], name: str, *, exact: bool) -> dict[str, float]:
+    """Errors over signals, both rms, by channel."""
+    table = tuple(changes.items())
+    found, expected = sensitivities(table, exact)[name], differences(table, name)
     return {column: rms(found[column] - expected[column]) / rms(expected[column]) for column in CHANNELS}
 
 
 @pytest.mark.parametrize("name", DIRECTIONS)
 def test_derivatives_are_those_of_whole_runs(name: str) -> None:
-    found = sensitivities(tuple(ABSENT.items()), tuple(DIRECTIONS))[name]
-    expected = differences(ABSENT, DIRECTIONS[name], SHARES.get(name, 1e-5))
-    left = errors(found, expected)
-    ex = errors(sensitivities(tuple(ABSENT.items()), tuple(DIRECTIONS), True)[name], expected)
-    print(name, 'EX', {k: f"{v:.5f}" for k, v in ex.items()})
-    print(name, {k: f"{v:.5f}" for k, v in left.items()})
+    """With the tangent factored where each step ends.
+
+    What is left, up to 0.5 %, is the quadrature points of the contact that begin to touch within the difference of runs;
+    forces on the sheave and the ends also have what a converged step leaves unbalanced, and drag hardly changes them.
+    """
+    left = errors(ABSENT, name, exact=True)
+    assert max(left[column] for column in MOTIONS) < 0.007
+    assert max(left[column] for column in FORCES) < (0.06 if name == "drag" else 0.02)
+
+
+@pytest.mark.parametrize("name", DIRECTIONS)
+def test_derivatives_with_the_factor_that_the_step_has_left(name: str) -> None:
+    """That factor is of an iterate before the state reached; at the sheave, where the pit's depth moves nodes, it shows most."""
+    left = errors(ABSENT, name, exact=False)
+    assert max(left[column] for column in MOTIONS[:3]) < (0.04 if name in ("pit", "radius") else 0.01)
+    assert left["turning"] < 0.04
+
+
+@pytest.mark.parametrize("changes", [DRAGGED, SLIPPING], ids=["drag", "hysteresis"])
+@pytest.mark.parametrize("name", ["bending", "sheave mass", "offset", "runout", "drag", "slip"])
+def test_derivatives_beside_effects_that_act(changes: dict[str, float], name: str) -> None:
+    """Forces of effects are differenced; hysteresis turns round within steps, which leaves 1 %."""
+    left = errors(changes, name, exact=True)
+    assert max(left[column] for column in MOTIONS[:3]) < 0.02
+
+
+def path(car: float, after: float) -> np.ndarray:
+    """The ends' path while the car goes from one height to another in 10 ms."""
+    ends = np.zeros((4, 6))
+    ends[0, [0, 3]], ends[2, [0, 3]] = (-car, -after), (car - MODEL.shaft.height, after - MODEL.shaft.height)
+    ends[1, [0, 3]], ends[3, [0, 3]] = -MODEL.sheave.radius, MODEL.sheave.radius
+    ends[[0, 2], 1] = ends[[0, 2], 4] = (car - after) / 0.01, (after - car) / 0.01
+    return ends.ravel()
+
+
+def ridden(rope: SensitiveRope | CompensationRope, steps: range) -> None:
+    """Carry a rope on at 0.5 m/s."""
+    for k in steps:
+        rope.step(0.01, path(5.0 + 0.005 * k, 5.0 + 0.005 * (k + 1)))
+
+
+def test_the_rope_itself_moves_to_the_same_bits_and_a_saved_state_goes_on() -> None:
+    plain, beside = CompensationRope(MODEL), SensitiveRope(MODEL, {"mass": {"sheave.mass": 1.0}}, exact=True)
+    for rope in (plain, beside):
+        rope.settle(5.0, MODEL.shaft.height - 5.0)
+        ridden(rope, range(20))
+    assert plain.state.to_bytes() == beside.rope.state.to_bytes()
+    saved = beside.to_bytes()
+    ridden(beside, range(20, 30))
+    expected = beside.to_bytes()
+    beside.from_bytes(saved)
+    ridden(beside, range(20, 30))
+    assert beside.to_bytes() == expected
+
+
+def test_a_direction_may_begin_with_other_values_of_what_does_nothing_yet() -> None:
+    """The runout's phase does nothing without a runout: half a turn of it changes the sign of the answer."""
+    runout = {"effects.sheave_eccentricity.eccentricity": 1.0}
+    rope = SensitiveRope(MODEL, {"down": runout, "up": runout}, {"up": {"effects.sheave_eccentricity.phase": pi}})
+    rope.settle(5.0, MODEL.shaft.height - 5.0)
+    ridden(rope, range(30))
+    down, up = rope.lateral_displacement().T
+    assert up == pytest.approx(-down, rel=1e-4)  # by differences of 1e-7 m, whose contact forces are not quite linear
+    assert np.abs(down).max() > 1e-3
+
+
+def test_a_direction_that_changes_nothing_has_no_derivative() -> None:
+    rope = SensitiveRope(MODEL, {"top": {"rope.diameter": 1.0}})
+    rope.settle(5.0, MODEL.shaft.height - 5.0)
+    ridden(rope, range(10))
+    assert np.abs(rope.lateral_displacement()).max() < 1e-9  # roundings of shapes at rest, 1e-12 m, over 1e-3 of the diameter
+    assert np.abs(rope.forces()["sheave_force"]).max() < 1e-4
+
+
+def test_no_directions_at_all() -> None:
+    replayed, derivatives = replay_with_sensitivities(MODEL, measured(), LASERS, {})
+    plain = replay(MODEL, measured(), LASERS)
+    assert derivatives == {}
+    assert all(np.array_equal(replayed.values[column], plain.values[column], equal_nan=True) for column in LASERS)
+
+
+@pytest.mark.parametrize("key", ["solver.step", "rope.element_length", "sheave.colour", "derived.element"])
+def test_what_is_no_physical_parameter_is_refused(key: str) -> None:
+    with pytest.raises(InputError, match=rf"^{key}: no sensitivity; a physical parameter such as .* is accepted$"):
+        SensitiveRope(MODEL, {"wrong": {key: 1.0}})

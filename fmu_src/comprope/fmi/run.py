@@ -31,7 +31,9 @@ class Run:
         self._running = False
 
     def plan(self, start: float, stop: float | None) -> None:
-        """Take over the start time and, if there is one, the stop time [s]."""
+        """Take over the start time and, if there is one, the stop time [s]; refused once the run has begun."""
+        if self._running:
+            raise InputError("start and stop time are accepted only before the run begins")
         self._start = self.time = start
         self._stop = stop
         self._engine = None

@@ -10,7 +10,7 @@ from .elastica import bend, sum_forces
 from .hooks import all_forces, all_moments
 from .jit import kernel
 from .slope import move_node, touch_again
-from .slots import CA, EA, ELEMENT, G, M
+from .slots import CA, EA, ELEMENT, RHO, G, J, M
 from .vector import LANES
 from .work import INVERSE, MOMENT, SHEAR, SPIN, TENSION, TX, TY
 
@@ -47,17 +47,19 @@ def add_lane(n, factor, f, at, D):
 
 
 @kernel
-def set_lane(n, factor, f, f0, at, D):
-    """Set that direction to `factor` times f - f0."""
-    m = n + 1
+def set_lane(n, factor, keep, f, f0, a, p, toward, b, dc, at, D):
+    """Set that direction to factor (f - f0) + keep (dc - dM a); its parameters' changes begin at b in `toward`."""
+    m, dmass = n + 1, toward[b + RHO] * p[ELEMENT] + p[RHO] * toward[b + ELEMENT]
     for i in range(m):
-        D[at + 2 * LANES * i] = factor * (f[i] - f0[i])
-        D[at + (2 * i + 1) * LANES] = factor * (f[m + i] - f0[m + i])
+        x, y = at + 2 * LANES * i, at + (2 * i + 1) * LANES
+        dx, dy = (toward[b + M], toward[b + J]) if i == n else (dmass, dmass)
+        D[x] = factor * (f[i] - f0[i]) + keep * (dc[x] - dx * a[i])
+        D[y] = factor * (f[m + i] - f0[m + i]) + keep * (dc[y] - dy * a[m + i])
 
 
 @kernel
 def stretch_on(n, p, l0, w0, e0, moves, v, w):
-    """What `elastica.stretch` gives after small moves, to first order; w0 and e0 belong to the place before and to elements of length l0."""
+    """What `elastica.stretch` gives after small moves, to first order; before them w0 and e0 held, and elements of length l0."""
     m, l = n + 1, p[ELEMENT]
     longer, per_l = l - l0, 1.0 / l
     for e in range(n - 1):

@@ -4,7 +4,7 @@ from .dynamics import forces
 from .ends import place_ends
 from .hooks import all_begin
 from .jit import kernel
-from .sensors import crossing, smooth
+from .sensors import crossing
 from .slots import ELEMENT
 from .statics import rest
 from .vector import LANES

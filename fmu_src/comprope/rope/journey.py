@@ -14,8 +14,8 @@ from .words import FINE, TOO_LONG
 @kernel
 def march_tangent(
     n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count,
-    state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1,
-    moves, w1, e0, f1, fc, hp, hi, hb, hd, D,
+    state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh,
+    p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """What `march.march` does, to the same bits, and all directions beside it."""
     for k in range(steps):
@@ -28,9 +28,10 @@ def march_tangent(
                 tally(n, p, h, q0, q, v, a, f, w, touch, power, effects, P0, P, E)
                 copy(state_size, h0, hp)
                 accept(n, state_size, q, v, a, f, h1, q0, v0, a0, f0, h0)
-                step_directions(n, t0 + s * dt, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v,
-                                a, f, w, A, L, B, Z, touch, power, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1,
-                                path1, moves, w1, e0, f1, fc, hi, hb, hd, D)  # fmt: skip
+                step_directions(n, t0 + s * dt, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0,
+                                a0, hp, q, v, a, f, w, A, L, B, Z, touch, power, at, toward, dp, limit, dpath, guided, way,
+                                dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi, hb, hd, D,
+                                lift)  # fmt: skip
                 done += size
                 count[STEPS] += 1
             else:
@@ -43,9 +44,9 @@ def march_tangent(
 
 @kernel
 def travel_tangent(
-    n, dt, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count, time, state_size, effects,
-    told, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0,
-    f1, fc, hp, hi, hb, hd, D,
+    n, dt, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count, time,
+    state_size, effects, told, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc,
+    dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """What `travel.travel` does, and all directions beside it."""
     t0, share = time[0], dt / p[STEP]
@@ -53,9 +54,10 @@ def travel_tangent(
         told[0], told[1], told[2] = dt, MOST, p[STEP]
         return TOO_LONG
     steps = max(1, ceil(share * (1.0 - 1e-9)))
-    reached = march_tangent(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E,
-                            count, state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way,
-                            dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D)  # fmt: skip
+    reached = march_tangent(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power,
+                            P0, P, E, count, state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit,
+                            dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd,
+                            D, lift)  # fmt: skip
     if reached == 1.0:
         time[0] = t0 + dt
         return FINE

@@ -10,10 +10,23 @@ have a lane for each direction as well: quantity j of a block at (parameters blo
 from .contact import near, touch_piece
 from .hooks import all_groove
 from .jit import kernel
-from .slots import CA, CB, CE, EA, EI, ELEMENT, RHO, G, M
+from .slots import CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
 from .vector import LANES, put, take
 from .work import (
-    BEND_RATE, CURVATURE, ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, INVERSE, LAST, NORMAL_LOSS, SHEAR, SPIN, TENSION, TX, TY,
+    BEND_RATE,
+    CURVATURE,
+    ELASTIC,
+    FIRST,
+    FORCE_X,
+    FRICTION_LOSS,
+    INVERSE,
+    LAST,
+    NORMAL_LOSS,
+    SHEAR,
+    SPIN,
+    TENSION,
+    TX,
+    TY,
 )  # fmt: skip
 
 
@@ -49,7 +62,8 @@ def segment_slope(m, w, e0, e, ea, ca, dea, dca, shorter, unloaded, ax, ay, bx, 
     tx, ty, inverse, spin, rate = w[TX * m + e], w[TY * m + e], w[INVERSE * m + e], w[SPIN * m + e], e0[m + e]
     along, across = tx * ax + ty * ay, tx * ay - ty * ax
     tilt = inverse * across
-    tension = ea * along + ca * (tx * bx + ty * by + spin * across) + e0[e] * dea + rate * dca + w[TENSION * m + e] * shorter + unloaded
+    tension = ea * along + ca * (tx * bx + ty * by + spin * across) + unloaded
+    tension = tension + e0[e] * dea + rate * dca + w[TENSION * m + e] * shorter
     return tilt, along, tension, inverse * (tx * by - ty * bx - rate * tilt - spin * along)
 
 
@@ -84,8 +98,20 @@ def weight_slope(p, dp, d):
 
 
 @kernel
-def rope_slope(n, p, v, w, e0, dp, d, base, h, dq, dv, da, D):
-    """Set a block of D to the changes of tension, bending, damping and weight, h ahead of (dq, dv, da).
+def mass_slope(p, dp, d):
+    """Change of the mass of a node."""
+    return p[ELEMENT] * take(dp, d + RHO * LANES) + p[RHO] * take(dp, d + ELEMENT * LANES)
+
+
+@kernel
+def row(new, keep, force, a, dmass, dc, D, at):
+    """Set entry `at` of D to new dforce + keep dc - dmass a."""
+    put(D, at, new * force + keep * take(dc, at) - a * dmass)
+
+
+@kernel
+def rope_slope(n, p, v, a, w, e0, dp, d, base, h, new, keep, dq, dv, da, dc, D):
+    """Set a block of D to new D + keep (dc - dM a): the changes of tension, bending, damping and weight, h ahead of (dq, dv, da).
 
     w and e0 belong to the present state. The sweep goes from node to node; each turn ends with the forces on the
     node before the last.
@@ -93,37 +119,41 @@ def rope_slope(n, p, v, w, e0, dp, d, base, h, dq, dv, da, D):
     m, half, drag, per_l = n + 1, 0.5 * h * h, p[CE] * p[ELEMENT], 1.0 / p[ELEMENT]
     ea, ca, ei, cb = p[EA] * per_l, p[CA] * per_l, p[EI] * per_l, p[CB] * per_l
     weight, ddrag = weight_slope(p, dp, d)
-    longer = take(dp, d + ELEMENT * LANES)
-    dea, dca, shorter, unloaded = per_l * take(dp, d + EA * LANES), per_l * take(dp, d + CA * LANES), -per_l * longer, -ea * longer
+    dmass, longer = keep * mass_slope(p, dp, d), take(dp, d + ELEMENT * LANES)
+    dea, dca = per_l * take(dp, d + EA * LANES), per_l * take(dp, d + CA * LANES)
+    shorter, unloaded = -per_l * longer, -ea * longer
     dei, dcb = take(dp, d + EI * LANES) - ei * longer, take(dp, d + CB * LANES) - cb * longer
     x, vx = ahead(base, h, half, dq, dv, da)
     y, vy = ahead(base + LANES, h, half, dq, dv, da)
     x1, vx1 = ahead(base + 2 * LANES, h, half, dq, dv, da)
     y1, vy1 = ahead(base + 3 * LANES, h, half, dq, dv, da)
-    tilt, longer, tension, spin = segment_slope(m, w, e0, 0, ea, ca, dea, dca, shorter, unloaded, x1 - x, y1 - y, vx1 - vx, vy1 - vy)
+    ax, ay, bx, by = x1 - x, y1 - y, vx1 - vx, vy1 - vy
+    tilt, longer, tension, spin = segment_slope(m, w, e0, 0, ea, ca, dea, dca, shorter, unloaded, ax, ay, bx, by)
     moment, fx, fy = 0.0 * x, 0.0 * x, 0.0 * x
     for e in range(1, n - 1):
         at = base + 2 * LANES * e
         x, y, vx0, vy0, vx, vy = x1, y1, vx, vy, vx1, vy1
         x1, vx1 = ahead(at + 2 * LANES, h, half, dq, dv, da)
         y1, vy1 = ahead(at + 3 * LANES, h, half, dq, dv, da)
-        tilt1, longer1, tension1, spin1 = segment_slope(m, w, e0, e, ea, ca, dea, dca, shorter, unloaded, x1 - x, y1 - y, vx1 - vx, vy1 - vy)
+        ax, ay, bx, by = x1 - x, y1 - y, vx1 - vx, vy1 - vy
+        tilt1, longer1, tension1, spin1 = segment_slope(m, w, e0, e, ea, ca, dea, dca, shorter, unloaded, ax, ay, bx, by)
         moment1 = moment_slope(m, w, e, ei, cb, dei, dcb, tilt1 - tilt, spin1 - spin)
         fx1, fy1 = force_slope(m, w, e - 1, tilt, longer, tension, moment - moment1)
-        put(D, at - 2 * LANES, fx1 - fx + weight - v[e - 1] * ddrag - drag * vx0)
-        put(D, at - LANES, fy1 - fy - v[m + e - 1] * ddrag - drag * vy0)
+        row(new, keep, fx1 - fx + weight - v[e - 1] * ddrag - drag * vx0, a[e - 1], dmass, dc, D, at - 2 * LANES)
+        row(new, keep, fy1 - fy - v[m + e - 1] * ddrag - drag * vy0, a[m + e - 1], dmass, dc, D, at - LANES)
         if e == 1:
-            put(D, base, fx1 + 0.5 * weight)
-            put(D, base + LANES, fy1)
+            put(D, base, new * (fx1 + 0.5 * weight))
+            put(D, base + LANES, new * fy1)
         tilt, longer, tension, spin, moment, fx, fy = tilt1, longer1, tension1, spin1, moment1, fx1, fy1
     fx1, fy1 = force_slope(m, w, n - 2, tilt, longer, tension, moment)
-    at = base + 2 * LANES * (n - 2)
-    put(D, at, fx1 - fx + weight - v[n - 2] * ddrag - drag * vx)
-    put(D, at + LANES, fy1 - fy - v[m + n - 2] * ddrag - drag * vy)
-    put(D, at + 2 * LANES, 0.5 * weight - fx1)
-    put(D, at + 3 * LANES, 0.0 * fy1 - fy1)
-    put(D, at + 4 * LANES, p[G] * take(dp, d + M * LANES) + p[M] * take(dp, d + G * LANES))
-    put(D, at + 5 * LANES, 0.0 * fy1)
+    at, last = base + 2 * LANES * (n - 2), n - 2
+    row(new, keep, fx1 - fx + weight - v[last] * ddrag - drag * vx, a[last], dmass, dc, D, at)
+    row(new, keep, fy1 - fy - v[m + last] * ddrag - drag * vy, a[m + last], dmass, dc, D, at + LANES)
+    put(D, at + 2 * LANES, new * (0.5 * weight - fx1))
+    put(D, at + 3 * LANES, -new * fy1)
+    sheave = p[G] * take(dp, d + M * LANES) + p[M] * take(dp, d + G * LANES)
+    row(new, keep, sheave, keep * a[n], take(dp, d + M * LANES), dc, D, at + 4 * LANES)
+    row(new, keep, 0.0 * sheave, keep * a[m + n], take(dp, d + J * LANES), dc, D, at + 5 * LANES)
 
 
 @kernel
@@ -156,14 +186,14 @@ def move_node(m, i, e, at, h, q0, v0, dq, dv, da, q, v):
 
 
 @kernel
-def contact_slope(n, p1, e, at, h, q0, v0, dq, dv, da, q, v, f, f0, touch, Z, D):
-    """Add to D how the contact answers, where its forces f0 are known: by a difference e, with parameters p1 a step e away."""
+def contact_slope(n, p1, e, at, h, new, q0, v0, dq, dv, da, q, v, f, f0, touch, Z, D):
+    """Add to D `new` times how the contact answers, by a difference e from its forces f0, with parameters p1 a step e away."""
     m, first, last = n + 1, int(touch[FIRST]) - 1, int(touch[LAST]) + 1
     for i in range(first, last + 1):
         move_node(m, i, e, at, h, q0, v0, dq, dv, da, q, v)
     move_node(m, n, e, at, h, q0, v0, dq, dv, da, q, v)
     contact_alone(n, p1, q, v, f, touch, Z, 0.0, 0.0, False)
-    per_e = 1.0 / e
+    per_e = new / e
     for i in range(first, last + 1):
         D[at + 2 * LANES * i] += (f[i] - f0[i]) * per_e
         D[at + (2 * i + 1) * LANES] += (f[m + i] - f0[m + i]) * per_e

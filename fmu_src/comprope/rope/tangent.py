@@ -8,7 +8,8 @@ predictor as the step's own, dq = dq0 + h (dv0 + h/2 da0), dv = dv0 + h da0, one
 
 where J is the tangent of the step and D the directional derivative of the forces (see `slope`), which is
 exact. J may be that of the iterate which was factored, with the contact's share renewed: that errs in the
-correction alone; or it is renewed as a whole (`exact`). The next dc follows from the balance of the step. What the ends do with dp is read off their paths by differences.
+correction alone; or it is renewed as a whole (`exact`). The next dc follows from the balance of the step.
+What the ends do with dp is read off their paths by differences.
 
 Directions go in blocks of LANES: number (node i, component c) of direction k in dq, dv, da, dc and D sits at
 (k // LANES 2 m + 2 i + c) LANES + k % LANES, as `lanes` has it. `dp` has the parameters' changes in
@@ -22,8 +23,8 @@ from .ends import PATH, PATHS, place_ends
 from .jit import kernel
 from .lanes import solve_lanes
 from .newmark import renew
-from .slope import ahead, contact_alone, contact_slope, elongations, rope_slope
-from .slots import ALPHA, ELEMENT, RHO, J, M, R
+from .slope import ahead, contact_alone, contact_slope, elongations, mass_slope, rope_slope
+from .slots import ALPHA, J, M, R
 from .vector import LANES, put, take
 from .work import FIRST, FORCE_X, LAST
 from .zone import factor_zone, fill
@@ -106,20 +107,27 @@ def renew_all(n, t, h, p, q, v, h0, fc, f1, touch, w, A, L, B, Z, r, hb, power):
 
 
 @kernel
-def differenced(directions, way):
-    """Whether any direction is differenced from the forces of the state reached."""
-    for k in range(directions):
-        if way[k] >= DIFFERENCED:
-            return True
-    return False
+def arrive(
+    n, t, h, exact, directions, p, q0, v0, hp, w, e0, f1, fc, way, touch, A, L, B, Z, moves, hb, power,
+):  # fmt: skip
+    """What all directions start from in the state reached: forces f1 if any is differenced, contact fc, elongations, J."""
+    if exact:
+        renew_all(n, t, h, p, q0, v0, hp, fc, f1, touch, w, A, L, B, Z, moves, hb, power)
+    else:
+        for k in range(directions):
+            if way[k] >= DIFFERENCED:
+                forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
+                break
+        renew_zone(n, h, p, q0, v0, fc, touch, A, L, B, Z)
+    elongations(n, p, v0, w, e0)
 
 
 @kernel
 def slope(
-    n, t, k, h, state_size, parameters, p, q0, v0, h0, w, e0, f1, fc, at, toward, limit, way, dq, dv, da, dh, p1, moves, q, v, hi,
-    hd, w1, f, touch, power, Z, D,
+    n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at, toward, limit, way, dq, dv, da, dc, dh,
+    p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D,
 ):  # fmt: skip
-    """Complete D for direction k, h ahead of (dq, dv, da), where it has the rope's part; returns the step of differences.
+    """Complete D for direction k, where it has the rope's part (see `rope_slope`); returns the step of differences.
 
     Touch is left as it is that step away.
     """
@@ -130,12 +138,12 @@ def slope(
         recall(state_size, k, e, way, h0, dh, hi)
     if way[k] == BEGUN:
         begun_effects(n, t, p1, q0, v0, w, f, hi, hd, power)
-        add_lane(n, 1.0 / e, f, b, D)
+        add_lane(n, new / e, f, b, D)
     if way[k] <= BEGUN:
-        contact_slope(n, p1, e, b, h, q0, v0, dq, dv, da, q, v, f, fc, touch, Z, D)
+        contact_slope(n, p1, e, b, h, new, q0, v0, dq, dv, da, q, v, f, fc, touch, Z, D)
     else:
         forces_on(n, t, p1, p[ELEMENT], w, e0, q0, v0, moves, q, v, w1, e, b, h, dq, dv, da, f, touch, hi, hd, power, Z)
-        set_lane(n, 1.0 / e, f, f1, b, D)
+        set_lane(n, new / e, keep, f, f1, a0, p, toward, parameters * k, dc, b, D)
     return e
 
 
@@ -156,29 +164,6 @@ def place_direction(n, t, k, h, parameters, path, dt, s, at, toward, limit, dpat
             da[b] = (a[j] - a0[j]) / e
             dv[b] = (v[j] - v0[j]) / e - h * da[b]
             dq[b] = (q[j] - q0[j]) / e - h * dv[b] - 0.5 * h * h * da[b]
-
-
-@kernel
-def mass_slope(p, dp, d):
-    """Change of the mass of a node."""
-    return p[ELEMENT] * take(dp, d + RHO * LANES) + p[RHO] * take(dp, d + ELEMENT * LANES)
-
-
-@kernel
-def weigh(n, p, dp, d, base, a0, dc, D):
-    """Turn a block of D into the right-hand side (1 - alpha) D + dc - dM a; prescribed ends have none."""
-    m, new, dmass = n + 1, 1.0 - p[ALPHA], mass_slope(p, dp, d)
-    for i in range(n):
-        k = base + 2 * LANES * i
-        put(D, k, new * take(D, k) + take(dc, k) - a0[i] * dmass)
-        put(D, k + LANES, new * take(D, k + LANES) + take(dc, k + LANES) - a0[m + i] * dmass)
-    k = base + 2 * LANES * n
-    put(D, k, new * take(D, k) + take(dc, k) - a0[n] * take(dp, d + M * LANES))
-    put(D, k + LANES, new * take(D, k + LANES) + take(dc, k + LANES) - a0[m + n] * take(dp, d + J * LANES))
-    for i in (0, n - 1):
-        k = base + 2 * LANES * i
-        put(D, k, 0.0 * dmass)
-        put(D, k + LANES, 0.0 * dmass)
 
 
 @kernel
@@ -208,57 +193,83 @@ def correct_block(n, p, dp, d, base, h, a0, D, dq, dv, da, dc):
 
 
 @kernel
+def guide(
+    n, t, h, dt, s, directions, parameters, path, at, toward, limit, dpath, guided, p1, path1, q0, v0, a0, q, v, a, dq, dv, da,
+):  # fmt: skip
+    """Place the ends of all directions that move them."""
+    for k in range(directions):
+        if guided[k] != 0.0:
+            place_direction(n, t, k, h, parameters, path, dt, s, at, toward, limit, dpath, p1, path1, q0, v0, a0, q, v, a,
+                            dq, dv, da)  # fmt: skip
+
+
+@kernel
+def solve_blocks(n, h, parameters, blocks, p, dp, a0, L, B, D, dq, dv, da, dc):
+    """Solve for the corrections of all directions, whose right-hand sides are in D, and add them; prescribed ends have none."""
+    size = 2 * (n + 1) * LANES
+    for block in range(blocks):
+        for k in range(2 * LANES):
+            D[size * block + k], D[size * block + 2 * LANES * (n - 1) + k] = 0.0, 0.0
+    solve_lanes(n, L, B, D, blocks, int(L[n]), int(L[2 * n + 1]))
+    for block in range(blocks):
+        correct_block(n, p, dp, parameters * LANES * block, size * block, h, a0, D, dq, dv, da, dc)
+
+
+@kernel
+def slopes(
+    n, t, h, new, keep, kind, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, dp, limit,
+    way, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift,
+):  # fmt: skip
+    """Set D to new D + keep (dc - dM a) for all directions, where D is the derivative of the forces h ahead of (dq, dv, da).
+
+    Keeps the history of directions whose way is `kind`, and in `lift` the derivative of the vertical force on the sheave.
+    """
+    force = touch[FORCE_X]
+    for block in range(blocks):
+        rope_slope(n, p, v0, a0, w, e0, dp, parameters * LANES * block, 2 * (n + 1) * LANES * block, h, new, keep, dq, dv, da, dc,
+                   D)  # fmt: skip
+    for k in range(directions):
+        e = slope(n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, limit, way, dq, dv,
+                  da, dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
+        lift[k] = (touch[FORCE_X] - force) / e
+        if way[k] == kind:
+            keep_history(state_size, k, e, way, hb, hd, dh)
+
+
+@kernel
 def step_directions(
-    n, t, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, A, L, B, Z, touch, power, at,
-    toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi, hb, hd, D,
+    n, t, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, A, L, B, Z,
+    touch, power, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi, hb, hd, D,
+    lift,
 ):  # fmt: skip
     """Carry all directions over an accepted step of length h that has ended at (q0, v0, a0); hp is the history before it.
 
     q, v, a, f are free for use; the workspace w is of that state, or within the step's tolerance of it.
     """
-    m, stride = n + 1, parameters * LANES
-    if exact:
-        renew_all(n, t, h, p, q0, v0, hp, fc, f1, touch, w, A, L, B, Z, moves, hb, power)
-    else:
-        if differenced(directions, way):
-            forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
-        renew_zone(n, h, p, q0, v0, fc, touch, A, L, B, Z)
-    elongations(n, p, v0, w, e0)
-    for k in range(directions):
-        if guided[k] != 0.0:
-            place_direction(n, t, k, h, parameters, path, dt, s, at, toward, limit, dpath, p1, path1, q0, v0, a0, q, v, a, dq, dv, da)
-    for block in range(blocks):
-        rope_slope(n, p, v0, w, e0, dp, stride * block, 2 * m * LANES * block, h, dq, dv, da, D)
-    for k in range(directions):
-        e = slope(n, t, k, h, state_size, parameters, p, q0, v0, hp, w, e0, f1, fc, at, toward, limit, way, dq, dv, da, dh, p1, moves,
-                  q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
-        if way[k] == BEGUN:
-            keep_history(state_size, k, e, way, hb, hd, dh)
-    for block in range(blocks):
-        weigh(n, p, dp, stride * block, 2 * m * LANES * block, a0, dc, D)
-    solve_lanes(n, L, B, D, blocks, int(L[n]), int(L[2 * n + 1]))
-    for block in range(blocks):
-        correct_block(n, p, dp, stride * block, 2 * m * LANES * block, h, a0, D, dq, dv, da, dc)
+    if directions == 0:
+        return
+    arrive(n, t, h, exact, directions, p, q0, v0, hp, w, e0, f1, fc, way, touch, A, L, B, Z, moves, hb, power)
+    guide(n, t, h, dt, s, directions, parameters, path, at, toward, limit, dpath, guided, p1, path1, q0, v0, a0, q, v, a,
+          dq, dv, da)  # fmt: skip
+    slopes(n, t, h, 1.0 - p[ALPHA], 1.0, BEGUN, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
+           toward, dp, limit, way, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift)  # fmt: skip
+    solve_blocks(n, h, parameters, blocks, p, dp, a0, L, B, D, dq, dv, da, dc)
     for k in range(directions):
         if way[k] == CHANGED:
-            e = slope(n, t, k, 0.0, state_size, parameters, p, q0, v0, hp, w, e0, f1, fc, at, toward, limit, way, dq, dv, da, dh, p1,
-                      moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
-            keep_history(state_size, k, e, way, hb, hd, dh)
+            slopes(n, t, 0.0, 1.0, 0.0, CHANGED, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
+                   toward, dp, limit, way, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
+                   lift)  # fmt: skip
+            return
 
 
 @kernel
 def differentiate(
-    n, t, state_size, directions, blocks, parameters, p, q0, v0, h0, q, v, f, w, Z, touch, power, at, toward, dp, limit, way, dq, dv,
-    da, dh, p1, moves, w1, e0, f1, fc, hi, hb, hd, D, lift,
+    n, t, state_size, directions, blocks, parameters, p, q0, v0, a0, h0, q, v, f, w, Z, touch, power, at, toward, dp, limit, way,
+    dq, dv, da, dc, dh, p1, moves, w1, e0, f1, fc, hi, hb, hd, D, lift,
 ):  # fmt: skip
-    """Set D to the derivative of the forces along all directions, lift[k] to that of the vertical force on the sheave."""
+    """Set D to the derivative of the forces along all directions, and lift to that of the vertical force on the sheave."""
     forces(n, t, p, q0, v0, w, f1, touch, h0, hb, power, Z, 0.0, 0.0, False)
     elongations(n, p, v0, w, e0)
     contact_alone(n, p, q0, v0, fc, touch, Z, 0.0, 0.0, False)
-    force = touch[FORCE_X]
-    for block in range(blocks):
-        rope_slope(n, p, v0, w, e0, dp, parameters * LANES * block, 2 * (n + 1) * LANES * block, 0.0, dq, dv, da, D)
-    for k in range(directions):
-        e = slope(n, t, k, 0.0, state_size, parameters, p, q0, v0, h0, w, e0, f1, fc, at, toward, limit, way, dq, dv, da, dh, p1,
-                  moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
-        lift[k] = (touch[FORCE_X] - force) / e
+    slopes(n, t, 0.0, 1.0, 0.0, -1, state_size, directions, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at, toward, dp,
+           limit, way, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift)  # fmt: skip

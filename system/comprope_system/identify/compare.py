@@ -103,12 +103,18 @@ class Comparison:
         known = [one.chi_square for run in self.runs for one in run.channels if np.isfinite(one.chi_square)]
         return float(np.mean(known)) if known else float("nan")
 
+    def floor(self, role: str) -> float:
+        """The error that the channels' noise alone would leave in the runs of a role."""
+        channels = [one for run in self.runs if run.role == role for one in run.channels]
+        return overall(one.noise / max(float(np.std(one.measured)), 1e-12) for one in channels if len(one.time))
+
     def to_json(self) -> dict[str, Any]:
         """As in the contract, with more; what does not exist is null."""
         height = self.campaign.model.shaft.height
         found = {
             "campaign": self.campaign.name, "runs": [one.to_json() for one in self.runs], "nrmse": self.nrmse,
             "fit_nrmse": self.fit_nrmse, "validate_nrmse": self.validate_nrmse, "chi_square_per_sample": self.chi_square,
+            "noise_nrmse": {"fit": self.floor("fit"), "validate": self.floor("validate")},
             "car_position_edges": list(np.linspace(0.0, height, PLACES + 1)),
         }  # fmt: skip
         return plain(found)

@@ -228,11 +228,14 @@ def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) ->
 
 
 def _least(one: Screened, count: int) -> dict[str, float]:
-    """Least size of each parameter that these data would show: a misfit raised by three tenths."""
+    """Least size of each parameter that these data would show: a misfit raised by three tenths.
+
+    Of a pair of effects, only the second's traces were looked at here.
+    """
     sizes = np.sqrt(0.3 * count) / np.maximum(np.linalg.norm(one.sideways, axis=0), 1e-300)
     return {
         key: float(size * abs(amount))
-        for size, direction in zip(sizes, one.hypothesis.directions, strict=True)
+        for size, direction in zip(sizes, one.hypothesis.directions[-len(sizes) :], strict=True)
         for key, amount in direction.changes.items()
         if amount
     }

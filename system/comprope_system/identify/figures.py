@@ -79,7 +79,7 @@ def _mean(rows: Sequence[Floats]) -> Floats:
     return np.asarray(np.sqrt(np.where(known, squares, 0.0).sum(0) / np.where(known.any(0), known.sum(0), np.nan)))
 
 
-def orders(comparison: Comparison, predicted: Comparison | None = None) -> Figure:
+def orders(comparison: Comparison) -> Figure:
     """Order spectrum of what is left, each channel a panel: lines at whole orders turn with the sheave."""
     columns = list(comparison.campaign.channels)
     rows = -(-len(columns) // 2)

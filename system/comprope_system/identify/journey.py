@@ -35,13 +35,18 @@ class Step:
 
 @dataclass(frozen=True)
 class Journey:
-    """All stops, the last diagnosis, what pruning took out, fits without each effect, and the final model."""
+    """All stops and diagnoses, what pruning took out, fits without each effect, and the final model."""
 
     steps: tuple[Step, ...]
-    last: Diagnosis
+    diagnoses: tuple[Diagnosis, ...]
     pruned: tuple[str, ...]
     without: tuple[Without, ...]
     added: Added
+
+    @property
+    def last(self) -> Diagnosis:
+        """What is to be said of the final model."""
+        return self.diagnoses[-1]
 
     @property
     def model(self) -> RopeModel:
@@ -81,18 +86,19 @@ def journey(campaign: Campaign, executor: Executor, say: Say = lambda _: None, m
     steps = [Step("as it stands", before.fit_nrmse, before.validate_nrmse, float("nan"))]
     fitted: Fitted = ground.fitted
     steps.append(_step(ground, "plant refitted", fitted, executor))
-    for _ in range(most + 1):
-        last = diagnose(campaign, executor, say, Point(effects=dict(fitted.point.effects)))
-        if last.verdict is None or len(steps) > most + 1:
+    found: list[Diagnosis] = []
+    while True:
+        found.append(diagnose(campaign, executor, say, Point(effects=dict(fitted.point.effects))))
+        if found[-1].verdict is None or len(steps) > most + 1:
             break
-        for name, step in _each(ground, last, fitted, say):
+        for name, step in _each(ground, found[-1], fitted, say):
             fitted = step
             steps.append(_step(ground, name, fitted, executor))
     names = set(grouped(fitted.hypothesis, fitted.effect_coefficients))
     fitted, without = prune(ground, fitted, say)
     kept = list(grouped(fitted.hypothesis, fitted.effect_coefficients))
     whole = added(ground, " + ".join(kept) or "nothing", fitted, executor)
-    return Journey(tuple(steps), last, tuple(sorted(names - set(kept))), tuple(without), whole)
+    return Journey(tuple(steps), tuple(found), tuple(sorted(names - set(kept))), tuple(without), whole)
 
 
 def _step(ground: Ground, name: str, fitted: Fitted, executor: Executor) -> Step:

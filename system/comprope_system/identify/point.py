@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from comprope.rope.effects import RopeModel
 from comprope.rope.model import values_of
+from comprope.rope.slots import DECLARED
 
 from .campaign import Campaign, Channel, Run
 from .hypotheses import NUISANCES
@@ -31,11 +32,10 @@ class Point:
         base = values_of(model) | {key: value for key, value in run.changes.items() if isinstance(value, (int, float))}
         changed: dict[str, Any] = dict(run.changes) | dict(self.effects)
         for one in NUISANCES:
-            coefficient = self.plant.get(one.name, 0.0)
-            if coefficient:
-                changed[one.name] = (
-                    base[one.name] * (1.0 + coefficient) if one.relative else max(base[one.name] + coefficient, 0.0)
-                )
+            if coefficient := self.plant.get(one.name, 0.0):
+                value = base[one.name] * (1.0 + coefficient) if one.relative else base[one.name] + coefficient
+                # A fit may lean on a parameter that it cannot see; it must not leave what a model accepts.
+                changed[one.name] = min(max(value, DECLARED[one.name].minimum), DECLARED[one.name].maximum)
         return changed
 
 

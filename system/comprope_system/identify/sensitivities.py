@@ -27,10 +27,10 @@ def replay_with_sensitivities(
 ) -> tuple[Replay, dict[str, dict[str, Floats]]]:
     """What `replay` gives, and for each direction the derivative of each channel at the run's sample times.
 
-    A direction maps keys of the model to amounts, `{"rope.bending_stiffness": 1.0}`; its derivative is in the
-    channel's SI unit per one times these amounts. They are added to what the run itself has changed. `at` sets values that do nothing
-    before the direction does, and `exact` spends more on accuracy (see `SensitiveRope`). Derivatives count from rest where the channel does, and
-    are NaN where the rope is not in view.
+    A direction maps keys of the model to amounts, `{"rope.bending_stiffness": 1.0}`; its derivative is in the channel's SI
+    unit per one times these amounts, which add to what the run itself has changed. `at` sets values that do nothing before the
+    direction does, and `exact` spends more on accuracy (see `SensitiveRope`). Derivatives count from rest where the channel
+    does, and are NaN where the rope is not in view.
     """
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
     rope = SensitiveRope(changed, directions, at, exact=exact)
@@ -50,34 +50,41 @@ def replay_with_sensitivities(
 
 def _through(model: RopeModel, column: str, run: Run, derivative: Floats) -> Floats:
     """What a channel's instrument makes of a derivative: all but its offset."""
-    return instrument(model, column, run.time, derivative) - instrument(model, column, run.time, np.zeros_like(derivative))
+    return instrument(model, column, run.time, derivative) - instrument(model, column, run.time, np.zeros(1))[0]
 
 
-def _drive(rope: SensitiveRope, run: Run, grid: Floats, channels: Mapping[str, Channel]) -> tuple[dict[str, Floats], dict[str, Floats]]:
-    """Each channel and its derivatives (times, 1 + directions) on the grid, and where the rope is out of view (times,)."""
+def _drive(
+    rope: SensitiveRope, run: Run, grid: Floats, channels: Mapping[str, Channel]
+) -> tuple[dict[str, Floats], dict[str, Floats]]:
+    """Each channel and its derivatives (times, 1 + directions) on the grid, and where it is out of view (times,)."""
     paths = _paths(rope.rope.model, run, grid)
     rope.settle(-paths[0, 0, 0], -paths[0, 2, 0], time=float(grid[0]))
     seen = {column: np.zeros((len(grid), 1 + len(rope.names))) for column in channels}
     hidden = {column: np.zeros(len(grid)) for column in channels}
+    lasers = {column: _place(rope, one) for column, one in channels.items() if one.quantity == "lateral_displacement"}
+    others = {column: one.quantity for column, one in channels.items() if column not in lasers}
     for k in range(len(grid)):
         if k:
             rope.step(GRID, np.concatenate([paths[k - 1], paths[k]], axis=1).ravel())
-        _note(rope, channels, k, seen, hidden)
+        if lasers:
+            sights = rope.lateral_displacement()
+        for column, (j, side, height) in lasers.items():
+            seen[column][k, 0], visible = rope.rope.lateral_displacement(side, height)
+            seen[column][k, 1:], hidden[column][k] = sights[j], not visible
+        if others:
+            _note(rope, others, {column: values[k] for column, values in seen.items()})
     return seen, hidden
 
 
-def _note(rope: SensitiveRope, channels: Mapping[str, Channel], k: int, seen: dict[str, Floats], hidden: dict[str, Floats]) -> None:
-    """Note what all channels show at the grid's time k."""
-    sensors = {sensor.name: (j, sensor) for j, sensor in enumerate(rope.rope.model.sensors)}
-    forced = any(one.quantity.endswith(FORCES) for one in channels.values())
+def _place(rope: SensitiveRope, channel: Channel) -> tuple[int, str, float]:
+    """Number, side and height of the sensor that a channel reads."""
+    return next((j, one.side, one.height) for j, one in enumerate(rope.rope.model.sensors) if one.name == channel.sensor)
+
+
+def _note(rope: SensitiveRope, others: Mapping[str, str], rows: Mapping[str, Floats]) -> None:
+    """Note what channels other than lasers show now: for each the value, then its derivatives."""
+    forced = any(quantity.endswith(FORCES) for quantity in others.values())
     values = rope.rope.outputs() if forced else rope.rope.sheave()
-    slopes = rope.sheave() | (rope.forces() if forced else {})
-    sights = rope.lateral_displacement()
-    for column, channel in channels.items():
-        row = seen[column][k]
-        if channel.quantity == "lateral_displacement":
-            j, sensor = sensors[str(channel.sensor)]
-            row[0], visible = rope.rope.lateral_displacement(sensor.side, sensor.height)
-            row[1:], hidden[column][k] = sights[j], not visible
-        else:
-            row[0], row[1:] = values[channel.quantity], slopes[channel.quantity]
+    forces = rope.forces() if forced else {}
+    for column, quantity in others.items():
+        rows[column][0], rows[column][1:] = values[quantity], forces[quantity] if quantity in forces else rope.of_sheave(quantity)

@@ -49,8 +49,8 @@ def compared(one: Comparison) -> str:
     ratio = one.chi_square
     rest = "noise explains all of it" if ratio < ENOUGH else "more than noise is left to explain"
     return (
-        f"The model misses by {percent(one.fit_nrmse)} of what the channels vary on the fit runs{held}: "
-        f"{number(ratio)} times the noise's mean square, so {rest}."
+        f"The model misses by {percent(one.fit_nrmse)} of what the channels vary on the fit runs{held}; noise alone would leave "
+        f"{percent(one.floor('fit'))}. What is left is {number(ratio)} times the noise's mean square: {rest}."
     )
 
 
@@ -108,7 +108,8 @@ def _missing(judged: Judged) -> str:
     return (
         f"{what}: {name}{more} with probability {chance(top['probability'])}. With it the error falls from "
         f"{percent(top['error_before'])} to {percent(top['error_after'])} on the fit runs and from "
-        f"{percent(top['validate_error_before'])} to {percent(top['validate_error_after'])} on runs held out.{rest}"
+        f"{percent(top['validate_error_before'])} to {percent(top['validate_error_after'])} on runs held out; noise alone would "
+        f"leave {percent(judged.before.floor('fit'))} and {percent(judged.before.floor('validate'))}.{rest}"
     )
 
 
