@@ -98,9 +98,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--model", type=Path, default=DEFAULT_MODEL, metavar="MODEL.toml", help="rope model to start from")
     parser.add_argument("--sensors", type=int, metavar="N", help="number of displacement sensors; default: those of the model")
     parser.add_argument("--out", type=Path, default=ROOT / "dist", metavar="DIR", help="folder to write to (default: dist)")
-    parser.add_argument(
-        "--native", action="store_true", help="the rope also as an FMU that needs no Python"
-    )
+    parser.add_argument("--native", action="store_true", help="the rope also as an FMU that needs no Python")
     return parser.parse_args(arguments)
 
 

@@ -6,8 +6,6 @@ PEER is an environment of its own with `pip install exudyn==1.13.6`. A 50 m trip
 1099 elements of 5 cm, 1 ms. Compare tensions and angle; the lateral shape that exudyn settles in is its own.
 """
 
-# ruff: noqa: T201 -- a table on the terminal is all it makes
-
 import argparse
 import json
 import subprocess

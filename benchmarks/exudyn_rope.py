@@ -6,8 +6,6 @@ ANCF cable elements hang over a rigid body that may rise and turn. A static solu
 the start; then the rope's ends follow the trip. x is lateral, y up, the origin is the axle as built.
 """
 
-# ruff: noqa: T201 -- its only output
-
 import json
 import sys
 import time

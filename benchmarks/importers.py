@@ -8,8 +8,6 @@ difference of a Real output from fmpy's, relative to its nominal value. Whatever
 standard error counts as a failure, since ecospy passes over errors that FMUs report.
 """
 
-# ruff: noqa: T201 -- a table on the terminal is all it makes
-
 import argparse
 import importlib.util
 import json

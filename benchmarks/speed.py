@@ -6,8 +6,6 @@ Of several runs the fastest counts. The limit is what plain C needs, in the same
 algebra alone of one iteration at the same number of nodes (see limit.py); needs gcc.
 """
 
-# ruff: noqa: T201 -- tables on the terminal are all it makes
-
 import argparse
 
 import numpy as np

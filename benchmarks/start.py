@@ -3,8 +3,6 @@
 python benchmarks/start.py
 """
 
-# ruff: noqa: T201 -- a table on the terminal is all it makes
-
 import os
 import subprocess
 import sys

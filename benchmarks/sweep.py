@@ -6,8 +6,6 @@ Each run is a trip in the 50 m tower with another sheave. Processes start fresh 
 that start is part of the time.
 """
 
-# ruff: noqa: T201 -- a table on the terminal is all it makes
-
 import argparse
 import json
 import os

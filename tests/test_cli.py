@@ -131,6 +131,7 @@ def test_a_run_that_is_none_is_refused(capsys, tmp_path, text, told):
 
 def test_what_fails_on_the_way_is_status_1_and_leaves_no_file(capsys, tmp_path, monkeypatch):
     for error, told in ((SimulationError("lost"), "lost\n"), (ZeroDivisionError("x"), "internal error: ZeroDivisionError: x\n")):
+
         def fail(*_, error=error):
             raise error
 

@@ -18,8 +18,7 @@ from .hanging import side_string
 from .modes import Mode, Modes, modes
 from .presets import model_path
 from .studies.draw import COLOURS, label, legend, panels
-from .trip_job import PICTURES
-from .trip_job import assignments
+from .trip_job import PICTURES, assignments
 
 SHOWN = 6  # shapes in the picture
 

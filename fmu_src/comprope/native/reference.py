@@ -1,4 +1,4 @@
-"""A result to compare with, kept inside the FMU: a short trip of the rope's ends as its input, and what the model gives for it."""
+"""A result to compare with, kept inside the FMU: a short trip of the rope's ends, and what the model gives for it."""
 
 import math
 from collections.abc import Iterable, Sequence

@@ -30,8 +30,22 @@ class Bound:
         self.state, trial = empty(n, states, effects), empty(n, states, effects)
         m, s = n + 1, self.state
         sizes = {"w": work.SECTIONS * m, "A": work.BAND * m, "L": band.FACTOR * m, "B": (zone.ROW + 2) * 2 * m + 4}
-        sizes |= {"Z": work.CONTACT * m + 4, "r": 2 * m, "touch": work.TOUCH, "power": effects + 1, "path": PATHS * PATH, "seen": 2, "u": INPUTS, "told": TOLD}
-        arrays = {name: np.zeros(size) for name, size in sizes.items()} | {"p": p, "f": trial.f, "h1": trial.history, "P": trial.powers}
+        sizes |= {
+            "Z": work.CONTACT * m + 4,
+            "r": 2 * m,
+            "touch": work.TOUCH,
+            "power": effects + 1,
+            "path": PATHS * PATH,
+            "seen": 2,
+            "u": INPUTS,
+            "told": TOLD,
+        }
+        arrays = {name: np.zeros(size) for name, size in sizes.items()} | {
+            "p": p,
+            "f": trial.f,
+            "h1": trial.history,
+            "P": trial.powers,
+        }
         arrays |= {"smooth": without_friction(p), "spots": np.zeros(1) if spots is None else spots}
         arrays |= {"y": np.zeros(arrays["spots"].size + len(SHOWN))}
         kept = {"h0": s.history, "P0": s.powers, "E": s.energy, "start": s.start, "count": s.count, "time": s.time}
@@ -71,4 +85,3 @@ def without_friction(p: Array) -> Array:
             key = f"effects.{effect.name}.{name}"
             smooth[slot(key)] = DECLARED[key].neutral
     return smooth
-

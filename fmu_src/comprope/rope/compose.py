@@ -115,7 +115,7 @@ def entry_source(name: str, function: Kernel, returns: str) -> str:
 def cache_folder(sources: Iterable[str]) -> Path:
     """Folder for what is compiled from these sources, in the user's cache or, failing that, a temporary one."""
     key = hashlib.sha256("\0".join([*sources, numba.__version__, sys.version]).encode()).hexdigest()[:16]
-    for base in (os.environ.get("COMPROPE_CACHE"), _user_cache(), os.path.join(tempfile.gettempdir(), "comprope")):
+    for base in (os.environ.get("COMPROPE_CACHE"), _user_cache(), Path(tempfile.gettempdir()) / "comprope"):
         if base:
             folder = Path(base) / key
             try:
@@ -127,10 +127,10 @@ def cache_folder(sources: Iterable[str]) -> Path:
     return Path(tempfile.mkdtemp(prefix="comprope"))
 
 
-def _user_cache() -> str:
+def _user_cache() -> Path:
     if sys.platform == "win32":
-        return os.path.join(os.environ.get("LOCALAPPDATA", tempfile.gettempdir()), "comprope", "cache")
-    return os.path.join(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache")), "comprope")
+        return Path(os.environ.get("LOCALAPPDATA", tempfile.gettempdir())) / "comprope" / "cache"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "comprope"
 
 
 @cache
@@ -173,5 +173,5 @@ def _file(path: Path, text: str) -> str:
     if not path.exists():
         with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False, suffix=".tmp") as file:
             file.write(text)
-        os.replace(file.name, path)
+        Path(file.name).replace(path)
     return str(path)

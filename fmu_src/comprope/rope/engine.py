@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-from ..errors import InputError
 from ..fmi.engine import ModelInterface, Value, Variable, parameters_of
 from .effects.base import REGISTRY
 from .model import CompensationRope, values_of
@@ -29,7 +28,12 @@ _OUTPUTS = (  # name, unit, nominal, help
     ("counterweight_end_tension", "N", 1000.0, "vertical pull of the rope on the counterweight"),
     ("car_side_max_displacement", "m", 0.05, "largest outward displacement on the car's side, above the axle"),
     ("car_side_max_height", "m", 10.0, "height of that displacement above the bottom landing"),
-    ("counterweight_side_max_displacement", "m", 0.05, "largest outward displacement on the counterweight's side, above the axle"),
+    (
+        "counterweight_side_max_displacement",
+        "m",
+        0.05,
+        "largest outward displacement on the counterweight's side, above the axle",
+    ),
     ("counterweight_side_max_height", "m", 10.0, "height of that displacement above the bottom landing"),
     ("energy_residual", "J", 1.0, "stored energy less its start, less work put in, plus losses: zero for an exact run"),
 )
@@ -122,7 +126,9 @@ class RopeEngine:
 def _parameters(model: Base) -> tuple[Variable, ...]:
     values = values_of(model)
     groups: dict[str, type[Any]] = COMPONENTS | {f"effects.{name}": effect for name, effect in REGISTRY.items()}
-    own = {key: {name.rpartition(".")[2]: value for name, value in values.items() if name.startswith(f"{key}.")} for key in groups}
+    own = {
+        key: {name.rpartition(".")[2]: value for name, value in values.items() if name.startswith(f"{key}.")} for key in groups
+    }
     variables = tuple(one for key, component in groups.items() for one in parameters_of(key, component, own[key]))
     return (*variables, *_sensor_parameters(model), *_options())
 
@@ -155,11 +161,15 @@ def _inputs(model: Base) -> tuple[Variable, ...]:
     height = model.shaft.height
     at = {"car": 0.0, "counterweight": height}
     positions = [
-        Variable(f"{end}_position", "real", "input", f"height of the rope's end under the {end}", "m", at[end], -20.0, 1100.0, height)
+        Variable(
+            f"{end}_position", "real", "input", f"height of the rope's end under the {end}", "m", at[end], -20.0, 1100.0, height
+        )
         for end in _ENDS
     ]
     rates = [
-        Variable(f"{end}_{word}", "real", "input", f"{word} of that end, up positive; see derivative_inputs", unit, 0.0, nominal=1.0)
+        Variable(
+            f"{end}_{word}", "real", "input", f"{word} of that end, up positive; see derivative_inputs", unit, 0.0, nominal=1.0
+        )
         for end in _ENDS
         for word, unit in (("velocity", "m/s"), ("acceleration", "m/s2"))
     ]

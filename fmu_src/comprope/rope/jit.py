@@ -10,7 +10,7 @@ import inspect
 import os
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numba
 import numpy as np
@@ -24,7 +24,7 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile a kernel; callers inline it as the compiler sees fit."""
     if PURE:
         return function
-    return numba.njit(function, **OPTIONS)  # type: ignore[no-any-return]
+    return numba.njit(function, **OPTIONS)
 
 
 INTEGERS = {"n", "m", "steps", "state_size", "effects", "side", "directions", "blocks", "parameters", "sensors"}
@@ -43,7 +43,12 @@ class Entry:
     Pointers spare the checks for negative indices, which keep the compiler from using vector units.
     """
 
-    _TYPES = {"integer": numba.int64, "flag": numba.boolean, "number": numba.float64, "array": numba.types.CPointer(numba.float64)}
+    _TYPES = {
+        "integer": numba.int64,
+        "flag": numba.boolean,
+        "number": numba.float64,
+        "array": numba.types.CPointer(numba.float64),
+    }
 
     def __init__(self, function: Callable[..., Any], returns: str = "nothing") -> None:
         self.function = function
@@ -57,7 +62,7 @@ class Entry:
         if PURE:
             return self.function
         options = {key: value for key, value in OPTIONS.items() if key != "nogil"}
-        return numba.cfunc(self.signature, cache=True, **options)(self.function).ctypes  # type: ignore[no-any-return]
+        return numba.cfunc(self.signature, cache=True, **options)(self.function).ctypes
 
     def bind(self, **arrays: NDArray[np.float64]) -> Callable[..., Any]:
         """The function with its arrays filled in; what is left to give, by name, are the scalars.
@@ -65,7 +70,7 @@ class Entry:
         The arrays must be contiguous and outlive the function.
         """
         filled = {name: array if PURE else ctypes.cast(array.ctypes.data, self._POINTER) for name, array in arrays.items()}
-        template = [filled.get(name) for name in self.names]
+        template: list[Any] = [filled.get(name) for name in self.names]
         places = {name: k for k, name in enumerate(self.names) if name not in arrays}
         call = self.compiled
 

@@ -24,7 +24,7 @@ from .jit import kernel
 from .lanes import solve_lanes
 from .newmark import renew
 from .slope import ahead, contact_alone, contact_slope, elongations, mass_slope, rope_slope
-from .slots import ALPHA, J, M, R
+from .slots import ALPHA, ELEMENT, J, M, R
 from .vector import LANES, put, take
 from .work import FIRST, FORCE_X, LAST
 from .zone import factor_zone, fill
