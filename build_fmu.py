@@ -1,6 +1,7 @@
 """Build the FMUs: `python build_fmu.py` writes dist/CompensationRope.fmu and dist/ElevatorDrive.fmu.
 
-With `--native` it writes dist/CompensationRope-native.fmu as well, which needs no Python.
+With `--native` it writes dist/CompensationRope-native.fmu as well, which needs no Python; with `--ssp`
+dist/Elevator.ssp, drive and rope connected, with the native rope if there is one.
 """
 
 import argparse
@@ -15,6 +16,7 @@ sys.path.insert(0, str(ROOT / "fmu_src"))
 from comprope.drive.engine import interface as drive_interface  # noqa: E402
 from comprope.errors import CompropeError, InputError  # noqa: E402
 from comprope.fmi.build import Origin, build  # noqa: E402
+from comprope.fmi.ssp import Part, wires_by_name, write_ssp  # noqa: E402
 from comprope.rope.effects import RopeModel  # noqa: E402
 from comprope.rope.engine import interface as rope_interface  # noqa: E402
 from comprope.rope.modelfile import dump, load  # noqa: E402
@@ -41,10 +43,13 @@ def main(arguments: list[str] | None = None) -> int:
     options = _options(arguments)
     try:
         origin = Origin(_version(), (ROOT / "LICENSE").read_text("utf-8"))
-        for path in (build_rope(options.model, options.sensors, options.out, origin), build_drive(options.out, origin)):
-            sys.stdout.write(f"{path}\n")
+        built = [build_rope(options.model, options.sensors, options.out, origin), build_drive(options.out, origin)]
         if options.native:
-            sys.stdout.write(f"{build_native_rope(options.model, options.sensors, options.out, origin)}\n")
+            built.append(build_native_rope(options.model, options.sensors, options.out, origin))
+        if options.ssp:
+            rope = built[2 * options.native]
+            built.append(build_ssp(model_with(options.model, options.sensors), rope, built[1], options.out))
+        sys.stdout.writelines(f"{path}\n" for path in built)
     except CompropeError as error:
         sys.stderr.write(f"{error}\n")
         return 2 if isinstance(error, InputError) else 1
@@ -75,6 +80,12 @@ def build_drive(out: Path, origin: Origin) -> Path:
     return build(drive_interface(), ["drive"], DRIVE_ENTRY, out, origin)
 
 
+def build_ssp(model: RopeModel, rope: Path, drive: Path, out: Path) -> Path:
+    """Drive and rope as one system: whatever has the same name is connected."""
+    parts = [Part("drive", drive, drive_interface()), Part("rope", rope, rope_interface(model), {"derivative_inputs": True})]
+    return write_ssp(out / "Elevator.ssp", "Elevator", parts, wires_by_name(parts))
+
+
 def model_with(model_file: Path, sensors: int | None) -> RopeModel:
     """The model of a file, with another number of sensors if one is given."""
     model = load(model_file)
@@ -98,6 +109,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--model", type=Path, default=DEFAULT_MODEL, metavar="MODEL.toml", help="rope model to start from")
     parser.add_argument("--sensors", type=int, metavar="N", help="number of displacement sensors; default: those of the model")
     parser.add_argument("--out", type=Path, default=ROOT / "dist", metavar="DIR", help="folder to write to (default: dist)")
+    parser.add_argument("--ssp", action="store_true", help="drive and rope also as one system, connected")
     parser.add_argument("--native", action="store_true", help="the rope also as an FMU that needs no Python")
     return parser.parse_args(arguments)
 

@@ -43,7 +43,7 @@ class Entry:
     Pointers spare the checks for negative indices, which keep the compiler from using vector units.
     """
 
-    _TYPES = {
+    _TYPES: ClassVar[dict[str, Any]] = {
         "integer": numba.int64,
         "flag": numba.boolean,
         "number": numba.float64,

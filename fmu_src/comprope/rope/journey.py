@@ -14,8 +14,8 @@ from .words import FINE, TOO_LONG
 @kernel
 def march_tangent(
     n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count,
-    state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh,
-    p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D, lift,
+    state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, own, dq, dv, da,
+    dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """What `march.march` does, to the same bits, and all directions beside it."""
     for k in range(steps):
@@ -29,7 +29,7 @@ def march_tangent(
                 copy(state_size, h0, hp)
                 accept(n, state_size, q, v, a, f, h1, q0, v0, a0, f0, h0)
                 step_directions(n, t0 + s * dt, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0,
-                                a0, hp, q, v, a, f, w, A, L, B, Z, touch, power, at, toward, dp, limit, dpath, guided, way,
+                                a0, hp, q, v, a, f, w, A, L, B, Z, touch, power, at, toward, dp, limit, dpath, guided, way, own,
                                 dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi, hb, hd, D,
                                 lift)  # fmt: skip
                 done += size
@@ -45,8 +45,8 @@ def march_tangent(
 @kernel
 def travel_tangent(
     n, dt, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count, time,
-    state_size, effects, told, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc,
-    dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D, lift,
+    state_size, effects, told, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, own, dq, dv,
+    da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """What `travel.travel` does, and all directions beside it."""
     t0, share = time[0], dt / p[STEP]
@@ -56,7 +56,7 @@ def travel_tangent(
     steps = max(1, ceil(share * (1.0 - 1e-9)))
     reached = march_tangent(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power,
                             P0, P, E, count, state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit,
-                            dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd,
+                            dpath, guided, way, own, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd,
                             D, lift)  # fmt: skip
     if reached == 1.0:
         time[0] = t0 + dt

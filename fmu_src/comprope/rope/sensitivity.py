@@ -56,6 +56,7 @@ class SensitiveRope:
         self._at = np.array([_replaced(p, (at or {}).get(name, {})) for name in self.names]).reshape(count, p.size)
         self._limit = np.array([_limit(p, one) for one in self._toward])
         self._way = np.array([_way(p, one) for one in self._toward], float)
+        self._own = np.array([_begins_history(p, one) for one in self._toward], float)
         self._blocks = -(-count // LANES)
         self._motion = {name: np.zeros((self._blocks, self.rope.n + 1, 2, LANES)) for name in ("dq", "dv", "da", "dc")}
         self._history = np.zeros((count, self.rope._do.scalars["state_size"]))
@@ -70,8 +71,8 @@ class SensitiveRope:
         sizes |= {"w1": do.w.size, "lift": count, "path1": PATHS * PATH, "p1": p.size, "smooth1": p.size}
         sizes |= {"D": self._blocks * 2 * m * LANES, "glances": len(self.rope.model.sensors) * count}
         own: dict[str, Array] = {name: np.zeros(size) for name, size in sizes.items()}
-        own |= {"at": self._at, "toward": self._toward, "dh": self._history, "limit": self._limit, "way": self._way}
-        own |= {"dp": in_lanes(self._toward), "dpath": self._end_paths()}
+        own |= {"at": self._at, "toward": self._toward, "dh": self._history, "limit": self._limit}
+        own |= {"way": self._way, "own": self._own, "dp": in_lanes(self._toward), "dpath": self._end_paths()}
         own |= {"guided": np.array([_guides(p, one) for one in self._toward], float)}
         sensors = self.rope.model.sensors
         own |= {"depths": np.array([-one.height for one in sensors])}
@@ -121,7 +122,7 @@ class SensitiveRope:
         if moved > 0.0:
             step = min(self._limit[k], step * SAG / moved)
         (q, h), (q1, h1) = self._rest(k, -step), self._rest(k, step)
-        return (q1 - q) / (2.0 * step), 0.5 * (h + h1) if self._way[k] == BEGUN else (h1 - h) / (2.0 * step)
+        return (q1 - q) / (2.0 * step), 0.5 * (h + h1) if self._own[k] else (h1 - h) / (2.0 * step)
 
     def _rest(self, k: int, step: float) -> tuple[Array, Array]:
         """Shape and history of the rope at rest a step along direction k."""
@@ -245,6 +246,11 @@ def _way(p: Array, dp: Array) -> int:
     if set(acting) & set(pushing):
         return DIFFERENCED
     return BEGUN if any(_touched(dp, name) for name in pushing) else BY_HAND
+
+
+def _begins_history(p: Array, dp: Array) -> bool:
+    """Whether an effect with history that the model is without begins along dp."""
+    return any(_touched(dp, name) and not _acts(p, name) for name, effect in REGISTRY.items() if effect.states)
 
 
 def _guides(p: Array, dp: Array) -> bool:

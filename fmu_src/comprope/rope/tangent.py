@@ -38,6 +38,8 @@ ENDS_STEP = 1e-2  # of `limit`: the difference by which the ends' paths are diff
 # How forces are differentiated along a direction: by hand but for the contact; with the forces of effects that begin
 # with it; by differences, as the model has effects; by differences in which the history of effects changes too.
 BY_HAND, BEGUN, DIFFERENCED, CHANGED = range(4)
+# Which directions keep their history in a pass: none, those whose effects have their own, those whose history changes.
+NONE, OWN, ALL = range(3)
 
 
 @kernel
@@ -67,17 +69,17 @@ def gauge(n, b, radius, limit, dq, dv):
 
 
 @kernel
-def recall(state_size, k, e, way, h0, dh, hi):
+def recall(state_size, k, e, own, h0, dh, hi):
     """Set hi to the history with which direction k is evaluated: the rope's own, changed, or that of effects that begin."""
     for i in range(state_size):
-        hi[i] = dh[state_size * k + i] if way[k] == BEGUN else h0[i] + e * dh[state_size * k + i]
+        hi[i] = dh[state_size * k + i] if own[k] != 0.0 else h0[i] + e * dh[state_size * k + i]
 
 
 @kernel
-def keep_history(state_size, k, e, way, hb, hd, dh):
+def keep_history(state_size, k, e, own, hb, hd, dh):
     """Keep direction k's history hd of a step in which the rope's own became hb."""
     for i in range(state_size):
-        dh[state_size * k + i] = hd[i] if way[k] == BEGUN else (hd[i] - hb[i]) / e
+        dh[state_size * k + i] = hd[i] if own[k] != 0.0 else (hd[i] - hb[i]) / e
 
 
 @kernel
@@ -124,8 +126,8 @@ def arrive(
 
 @kernel
 def slope(
-    n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at, toward, limit, way, dq, dv, da, dc, dh,
-    p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D,
+    n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at, toward, limit, way, own, dq, dv, da,
+    dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D,
 ):  # fmt: skip
     """Complete D for direction k, where it has the rope's part (see `rope_slope`); returns the step of differences.
 
@@ -135,7 +137,7 @@ def slope(
     e = gauge(n, b, p[R], limit[k], dq, dv)
     shift(parameters, k, e, at, toward, p1)
     if way[k] != BY_HAND:
-        recall(state_size, k, e, way, h0, dh, hi)
+        recall(state_size, k, e, own, h0, dh, hi)
     if way[k] == BEGUN:
         begun_effects(n, t, p1, q0, v0, w, f, hi, hd, power)
         add_lane(n, new / e, f, b, D)
@@ -217,30 +219,30 @@ def solve_blocks(n, h, parameters, blocks, p, dp, a0, L, B, D, dq, dv, da, dc):
 
 @kernel
 def slopes(
-    n, t, h, new, keep, kind, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, dp, limit,
-    way, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift,
+    n, t, h, new, keep, kept, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, dp,
+    limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift,
 ):  # fmt: skip
     """Set D to new D + keep (dc - dM a) for all directions, where D is the derivative of the forces h ahead of (dq, dv, da).
 
-    Keeps the history of directions whose way is `kind`, and in `lift` the derivative of the vertical force on the sheave.
+    Keeps the histories that `kept` asks for, and in `lift` the derivatives of the vertical force on the sheave.
     """
     force = touch[FORCE_X]
     for block in range(blocks):
-        rope_slope(n, p, v0, a0, w, e0, dp, parameters * LANES * block, 2 * (n + 1) * LANES * block, h, new, keep, dq, dv, da, dc,
-                   D)  # fmt: skip
+        rope_slope(n, p, v0, a0, w, e0, dp, parameters * LANES * block, 2 * (n + 1) * LANES * block, h, new, keep, dq, dv,
+                   da, dc, D)  # fmt: skip
     for k in range(directions):
-        e = slope(n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, limit, way, dq, dv,
-                  da, dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
+        e = slope(n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, limit, way, own,
+                  dq, dv, da, dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
         lift[k] = (touch[FORCE_X] - force) / e
-        if way[k] == kind:
-            keep_history(state_size, k, e, way, hb, hd, dh)
+        if kept == ALL or (kept == OWN and own[k] != 0.0):
+            keep_history(state_size, k, e, own, hb, hd, dh)
 
 
 @kernel
 def step_directions(
     n, t, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, A, L, B, Z,
-    touch, power, at, toward, dp, limit, dpath, guided, way, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi, hb, hd, D,
-    lift,
+    touch, power, at, toward, dp, limit, dpath, guided, way, own, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi,
+    hb, hd, D, lift,
 ):  # fmt: skip
     """Carry all directions over an accepted step of length h that has ended at (q0, v0, a0); hp is the history before it.
 
@@ -251,25 +253,27 @@ def step_directions(
     arrive(n, t, h, exact, directions, p, q0, v0, hp, w, e0, f1, fc, way, touch, A, L, B, Z, moves, hb, power)
     guide(n, t, h, dt, s, directions, parameters, path, at, toward, limit, dpath, guided, p1, path1, q0, v0, a0, q, v, a,
           dq, dv, da)  # fmt: skip
-    slopes(n, t, h, 1.0 - p[ALPHA], 1.0, BEGUN, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
-           toward, dp, limit, way, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift)  # fmt: skip
+    slopes(n, t, h, 1.0 - p[ALPHA], 1.0, OWN, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
+           toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
+           lift)  # fmt: skip
     solve_blocks(n, h, parameters, blocks, p, dp, a0, L, B, D, dq, dv, da, dc)
     for k in range(directions):
         if way[k] == CHANGED:
-            slopes(n, t, 0.0, 1.0, 0.0, CHANGED, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
-                   toward, dp, limit, way, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
+            slopes(n, t, 0.0, 1.0, 0.0, ALL, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
+                   toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
                    lift)  # fmt: skip
             return
 
 
 @kernel
 def differentiate(
-    n, t, state_size, directions, blocks, parameters, p, q0, v0, a0, h0, q, v, f, w, Z, touch, power, at, toward, dp, limit, way,
-    dq, dv, da, dc, dh, p1, moves, w1, e0, f1, fc, hi, hb, hd, D, lift,
+    n, t, state_size, directions, blocks, parameters, p, q0, v0, a0, h0, q, v, f, w, Z, touch, power, at, toward, dp, limit,
+    way, own, dq, dv, da, dc, dh, p1, moves, w1, e0, f1, fc, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """Set D to the derivative of the forces along all directions, and lift to that of the vertical force on the sheave."""
     forces(n, t, p, q0, v0, w, f1, touch, h0, hb, power, Z, 0.0, 0.0, False)
     elongations(n, p, v0, w, e0)
     contact_alone(n, p, q0, v0, fc, touch, Z, 0.0, 0.0, False)
-    slopes(n, t, 0.0, 1.0, 0.0, -1, state_size, directions, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at, toward, dp,
-           limit, way, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift)  # fmt: skip
+    slopes(n, t, 0.0, 1.0, 0.0, NONE, state_size, directions, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at,
+           toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
+           lift)  # fmt: skip
