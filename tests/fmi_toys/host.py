@@ -141,7 +141,7 @@ def many(path: str) -> None:
         host.freeInstance()
         script = next(module for name, module in sys.modules.items() if name.startswith("Spring_"))
         references.append(sys.getrefcount(script.__dict__))
-    print("PATHS", sum("comprope" in name or "resources" in name for name in sys.path))
+    print("PATHS", sum("resources" in name for name in sys.path))
     print("REFERENCES", len(set(references)))
 
 

@@ -11,11 +11,11 @@ from .zone import ROW, WIDTH
 
 
 @kernel
-def forward_lanes(m, L, R, blocks, i, j, k):
+def forward_lanes(m, L, R, begin, end, i, j, k):
     """What `band.forward` does, for every lane."""
     jxx, jyx, jxy, jyy = L[3 * m + i], L[4 * m + i], L[5 * m + i], L[6 * m + i]
     kxx, kyx, kxy, kyy = L[7 * m + i], L[8 * m + i], L[9 * m + i], L[10 * m + i]
-    for block in range(blocks):
+    for block in range(begin, end):
         base = 2 * LANES * m * block
         to_i, to_j, to_k = base + 2 * LANES * i, base + 2 * LANES * j, base + 2 * LANES * k
         x, y = take(R, to_i), take(R, to_i + LANES)
@@ -26,12 +26,12 @@ def forward_lanes(m, L, R, blocks, i, j, k):
 
 
 @kernel
-def backward_lanes(m, L, R, blocks, i, j, k):
+def backward_lanes(m, L, R, begin, end, i, j, k):
     """What `band.backward` does, for every lane."""
     dxx, dxy, dyy = L[i], L[m + i], L[2 * m + i]
     jxx, jxy, jyx, jyy = L[3 * m + i], L[4 * m + i], L[5 * m + i], L[6 * m + i]
     kxx, kxy, kyx, kyy = L[7 * m + i], L[8 * m + i], L[9 * m + i], L[10 * m + i]
-    for block in range(blocks):
+    for block in range(begin, end):
         base = 2 * LANES * m * block
         to_i, to_j, to_k = base + 2 * LANES * i, base + 2 * LANES * j, base + 2 * LANES * k
         x, y, jx, jy = take(R, to_i), take(R, to_i + LANES), take(R, to_j), take(R, to_j + LANES)
@@ -41,31 +41,31 @@ def backward_lanes(m, L, R, blocks, i, j, k):
 
 
 @kernel
-def inwards_lanes(n, L, R, blocks, first, last):
+def inwards_lanes(n, L, R, begin, end, first, last):
     """What `band.inwards` does, for every lane."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(both):
-        forward_lanes(m, L, R, blocks, e, e + 1, e + 2)
-        forward_lanes(m, L, R, blocks, n - 1 - e, n - 2 - e, n - 3 - e)
+        forward_lanes(m, L, R, begin, end, e, e + 1, e + 2)
+        forward_lanes(m, L, R, begin, end, n - 1 - e, n - 2 - e, n - 3 - e)
     for e in range(both, first):
-        forward_lanes(m, L, R, blocks, e, e + 1, e + 2)
+        forward_lanes(m, L, R, begin, end, e, e + 1, e + 2)
     for e in range(both, right):
-        forward_lanes(m, L, R, blocks, n - 1 - e, n - 2 - e, n - 3 - e)
+        forward_lanes(m, L, R, begin, end, n - 1 - e, n - 2 - e, n - 3 - e)
 
 
 @kernel
-def outwards_lanes(n, L, R, blocks, first, last):
+def outwards_lanes(n, L, R, begin, end, first, last):
     """What `band.outwards` does, for every lane."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(right - 1, both - 1, -1):
-        backward_lanes(m, L, R, blocks, n - 1 - e, n - 2 - e, n - 3 - e)
+        backward_lanes(m, L, R, begin, end, n - 1 - e, n - 2 - e, n - 3 - e)
     for e in range(first - 1, both - 1, -1):
-        backward_lanes(m, L, R, blocks, e, e + 1, e + 2)
+        backward_lanes(m, L, R, begin, end, e, e + 1, e + 2)
     for e in range(both - 1, -1, -1):
-        backward_lanes(m, L, R, blocks, e, e + 1, e + 2)
-        backward_lanes(m, L, R, blocks, n - 1 - e, n - 2 - e, n - 3 - e)
+        backward_lanes(m, L, R, begin, end, e, e + 1, e + 2)
+        backward_lanes(m, L, R, begin, end, n - 1 - e, n - 2 - e, n - 3 - e)
 
 
 @kernel
@@ -94,9 +94,9 @@ def solve_zone_lanes(n, B, R, base, first, last):
 
 
 @kernel
-def solve_lanes(n, L, B, R, blocks, first, last):
-    """Solve the factored tangent for all right-hand sides, in place."""
-    inwards_lanes(n, L, R, blocks, first, last)
-    for block in range(blocks):
+def solve_lanes(n, L, B, R, begin, end, first, last):
+    """Solve the factored tangent for the right-hand sides of blocks `begin` .. `end` - 1, in place."""
+    inwards_lanes(n, L, R, begin, end, first, last)
+    for block in range(begin, end):
         solve_zone_lanes(n, B, R, 2 * LANES * (n + 1) * block, first, last)
-    outwards_lanes(n, L, R, blocks, first, last)
+    outwards_lanes(n, L, R, begin, end, first, last)

@@ -33,6 +33,7 @@ MOVE = 1e-7  # m, the largest move by which forces are differenced
 PERIOD = 0.1  # s, by which velocities are compared with moves
 TURN = 1e-3  # share of the sheave's turn, which matters to forces through an eccentric groove alone
 COARSE = 32  # nodes between those that are asked for the largest move
+GROUP = 2  # blocks that are carried on at once: enough to fill each other's waiting, few enough to stay at hand
 ENDS_STEP = 1e-2  # of `limit`: the difference by which the ends' paths are differentiated
 
 # How forces are differentiated along a direction: by hand but for the contact; with the forces of effects that begin
@@ -206,31 +207,31 @@ def guide(
 
 
 @kernel
-def solve_blocks(n, h, parameters, blocks, p, dp, a0, L, B, D, dq, dv, da, dc):
-    """Solve for the corrections of all directions, whose right-hand sides are in D, and add them; prescribed ends have none."""
+def solve_blocks(n, h, parameters, begin, end, p, dp, a0, L, B, D, dq, dv, da, dc):
+    """Solve for the corrections of some blocks, whose right-hand sides are in D, and add them; prescribed ends have none."""
     size = 2 * (n + 1) * LANES
-    for block in range(blocks):
+    for block in range(begin, end):
         for k in range(2 * LANES):
             D[size * block + k], D[size * block + 2 * LANES * (n - 1) + k] = 0.0, 0.0
-    solve_lanes(n, L, B, D, blocks, int(L[n]), int(L[2 * n + 1]))
-    for block in range(blocks):
+    solve_lanes(n, L, B, D, begin, end, int(L[n]), int(L[2 * n + 1]))
+    for block in range(begin, end):
         correct_block(n, p, dp, parameters * LANES * block, size * block, h, a0, D, dq, dv, da, dc)
 
 
 @kernel
 def slopes(
-    n, t, h, new, keep, kept, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, dp,
+    n, t, h, new, keep, kept, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, dp,
     limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift,
 ):  # fmt: skip
-    """Set D to new D + keep (dc - dM a) for all directions, where D is the derivative of the forces h ahead of (dq, dv, da).
+    """Set D to new D + keep (dc - dM a) for the directions of blocks `begin` .. `end` - 1, where D is the derivative of the forces h ahead of (dq, dv, da).
 
     Keeps the histories that `kept` asks for, and in `lift` the derivatives of the vertical force on the sheave.
     """
     force = touch[FORCE_X]
-    for block in range(blocks):
+    for block in range(begin, end):
         rope_slope(n, p, v0, a0, w, e0, dp, parameters * LANES * block, 2 * (n + 1) * LANES * block, h, new, keep, dq, dv,
                    da, dc, D)  # fmt: skip
-    for k in range(directions):
+    for k in range(begin * LANES, min(end * LANES, directions)):
         e = slope(n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, limit, way, own,
                   dq, dv, da, dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
         lift[k] = (touch[FORCE_X] - force) / e
@@ -253,13 +254,17 @@ def step_directions(
     arrive(n, t, h, exact, directions, p, q0, v0, hp, w, e0, f1, fc, way, touch, A, L, B, Z, moves, hb, power)
     guide(n, t, h, dt, s, directions, parameters, path, at, toward, limit, dpath, guided, p1, path1, q0, v0, a0, q, v, a,
           dq, dv, da)  # fmt: skip
-    slopes(n, t, h, 1.0 - p[ALPHA], 1.0, OWN, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
+    force = touch[FORCE_X]
+    for begin in range(0, blocks, GROUP):
+        end = min(begin + GROUP, blocks)
+        touch[FORCE_X] = force
+        slopes(n, t, h, 1.0 - p[ALPHA], 1.0, OWN, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
            toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
            lift)  # fmt: skip
-    solve_blocks(n, h, parameters, blocks, p, dp, a0, L, B, D, dq, dv, da, dc)
+        solve_blocks(n, h, parameters, begin, end, p, dp, a0, L, B, D, dq, dv, da, dc)
     for k in range(directions):
         if way[k] == CHANGED:
-            slopes(n, t, 0.0, 1.0, 0.0, ALL, state_size, directions, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
+            slopes(n, t, 0.0, 1.0, 0.0, ALL, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
                    toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
                    lift)  # fmt: skip
             return
@@ -274,6 +279,6 @@ def differentiate(
     forces(n, t, p, q0, v0, w, f1, touch, h0, hb, power, Z, 0.0, 0.0, False)
     elongations(n, p, v0, w, e0)
     contact_alone(n, p, q0, v0, fc, touch, Z, 0.0, 0.0, False)
-    slopes(n, t, 0.0, 1.0, 0.0, NONE, state_size, directions, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at,
+    slopes(n, t, 0.0, 1.0, 0.0, NONE, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at,
            toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
            lift)  # fmt: skip

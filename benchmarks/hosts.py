@@ -1,0 +1,93 @@
+"""The native FMU in a host without Python: under sanitizers, and its Windows binary under wine.
+
+    python benchmarks/hosts.py dist/CompensationRope-native.fmu
+
+Needs gcc (its address and undefined-behaviour sanitizers), and for Windows ziglang and wine64.
+"""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from fmpy import read_model_description
+
+from comprope.native import link
+from comprope.native.ir import kernels, sizes
+from comprope.native.machine import TARGETS, machine_code
+from comprope.native.tables import kernels_header, model_source
+
+sys.path.insert(0, str(Path(__file__).parent.parent))
+from tests.native_fmu import tower
+
+HOST = Path(__file__).parent.parent / "tests" / "native_host.c"
+SCENARIOS = {"cycle": 50, "threads": 5, "states": 1, "wrong": 1}
+WINE = ("wine64", "/usr/lib/wine/wine64")
+_SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1", "-std=c11")
+
+
+def arguments(fmu: str, guid: str, binary: str, number: int) -> list[str]:
+    """What the host is told of the FMU."""
+    places = {one.name: str(one.valueReference) for one in read_model_description(fmu).modelVariables}
+    names = ("car_position", "counterweight_position", "sheave.mass", "lateral_displacement[1]")
+    return [binary, guid, *(places[name] for name in names), str(number)]
+
+
+def run(command: list[str]) -> str:
+    """The last line of a program's output, or how it ended."""
+    result = subprocess.run(
+        command, capture_output=True, text=True, timeout=600, check=False, env=os.environ | {"WINEDEBUG": "-all"}
+    )
+    lines = (result.stdout.strip() or result.stderr.strip() or "no output").splitlines()
+    return lines[-1] if result.returncode == 0 else f"exit status {result.returncode}: {lines[0]}"
+
+
+def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
+    """Every scenario with the face in C compiled under sanitizers; the kernels are as in the FMU."""
+    generated = {"kernels.h": kernels_header(tower(), sizes()), "model.c": model_source(tower(), "sanitized")}
+    for name, content in (link.face_sources() | {name: text.encode() for name, text in generated.items()}).items():
+        (stage / name).write_bytes(content)
+    (stage / "kernels.o").write_bytes(machine_code(kernels(), TARGETS["linux"]))
+    sources = sorted(str(path) for path in stage.glob("*.c"))
+    options = ["gcc", *_SANITIZED, f"-I{stage}", f"-I{link.HEADERS}"]
+    binary, host = str(stage / "face.so"), str(stage / "host")
+    shared = ["-shared", "-fPIC", "-fvisibility=hidden"]
+    subprocess.run([*options, *shared, *sources, str(stage / "kernels.o"), "-o", binary, "-lm"], check=True)
+    subprocess.run([*options, str(HOST), "-o", host, "-ldl", "-lpthread", "-lm"], check=True)
+    for scenario, number in SCENARIOS.items():
+        yield scenario, run([host, scenario, *arguments(fmu, "sanitized", binary, number)])
+
+
+def in_wine(fmu: str, stage: Path, wine: str) -> Iterator[tuple[str, str]]:
+    """Every scenario but threads with the Windows binary of the FMU."""
+    with zipfile.ZipFile(fmu) as archive:
+        binary = archive.extract("binaries/win64/CompensationRope.dll", stage)
+    host = str(stage / "host.exe")
+    zig = [sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-windows-gnu"]
+    subprocess.run([*zig, "-std=c11", "-O1", f"-I{link.HEADERS}", str(HOST), "-o", host], check=True)
+    guid = read_model_description(fmu).guid
+    for scenario in ("cycle", "states", "wrong"):
+        windows_path = "Z:" + binary.replace("/", "\\")
+        yield scenario, run([wine, host, scenario, *arguments(fmu, guid, windows_path, SCENARIOS[scenario])])
+
+
+def main() -> None:
+    """Print the table."""
+    fmu = sys.argv[1]
+    wine = next((found for name in WINE if (found := shutil.which(name))), None)
+    with tempfile.TemporaryDirectory() as folder:
+        print("| host | scenario | outcome |\n|---|---|---|")
+        for scenario, outcome in sanitized(fmu, Path(folder)):
+            print(f"| Linux, sanitized | {scenario} | {outcome} |", flush=True)
+        if wine and importlib.util.find_spec("ziglang"):
+            for scenario, outcome in in_wine(fmu, Path(folder), wine):
+                print(f"| Windows binary in wine | {scenario} | {outcome} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
