@@ -22,7 +22,7 @@ from ..errors import CompropeError
 PREFIX = "comprope_"
 # What a program without Python calls, of `compose.ENTRIES`.
 CALLED = ("divide", "coarse", "reach", "settle", "begin_motion", "lead", "travel", "show")
-_PLAIN = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0", "PYTHONDONTWRITEBYTECODE": "1"}
+_PLAIN = {"PYTHONHASHSEED": "0", "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0"}
 _NODES = (40, 41, 50)
 
 

@@ -12,27 +12,28 @@ from .jit import kernel
 from .slope import move_node, touch_again
 from .slots import CA, EA, ELEMENT, RHO, G, J, M
 from .vector import LANES
-from .work import INVERSE, MOMENT, SHEAR, SPIN, TENSION, TX, TY
+from .work import FX, INVERSE, MOMENT, SPIN, TENSION, TX, TY
 
 
 @kernel
 def begun_effects(n, t, p1, q, v, w, f, hi, hd, power):
     """Set f to the forces of effects alone, with parameters p1; w and (q, v) are of the present state without them.
 
-    Moments M of theirs act as the shear Q = (M_e - M_e+1) / L of each segment. w loses its own moments and shears.
+    Moments M of theirs act as the shear Q = (M_e - M_e+1) / L of each segment. w loses its own moments, and what
+    its section FX held to those shears.
     """
     m = n + 1
     for i in range(n):
         w[MOMENT * m + i] = 0.0
     all_moments(n, p1, w, hi, hd, power)
     for e in range(n - 1):
-        w[SHEAR * m + e] = (w[MOMENT * m + e] - w[MOMENT * m + e + 1]) * w[INVERSE * m + e]
-    f[0], f[m] = -w[SHEAR * m] * w[TY * m], w[SHEAR * m] * w[TX * m]
+        w[FX * m + e] = (w[MOMENT * m + e] - w[MOMENT * m + e + 1]) * w[INVERSE * m + e]
+    f[0], f[m] = -w[FX * m] * w[TY * m], w[FX * m] * w[TX * m]
     for i in range(1, n - 1):
-        f[i] = w[SHEAR * m + i - 1] * w[TY * m + i - 1] - w[SHEAR * m + i] * w[TY * m + i]
+        f[i] = w[FX * m + i - 1] * w[TY * m + i - 1] - w[FX * m + i] * w[TY * m + i]
     for i in range(1, n - 1):
-        f[m + i] = w[SHEAR * m + i] * w[TX * m + i] - w[SHEAR * m + i - 1] * w[TX * m + i - 1]
-    f[n - 1], f[m + n - 1] = w[SHEAR * m + n - 2] * w[TY * m + n - 2], -w[SHEAR * m + n - 2] * w[TX * m + n - 2]
+        f[m + i] = w[FX * m + i] * w[TX * m + i] - w[FX * m + i - 1] * w[TX * m + i - 1]
+    f[n - 1], f[m + n - 1] = w[FX * m + n - 2] * w[TY * m + n - 2], -w[FX * m + n - 2] * w[TX * m + n - 2]
     f[n], f[m + n] = 0.0, 0.0
     all_forces(n, t, p1, q, v, w, f, power)
 

@@ -34,6 +34,7 @@ SHEAVE = {
     "sheave_angular_velocity": ("dv", 1, 1.0),
 }  # fmt: skip
 SAG = 1e-5  # m, the move by which shapes at rest are differenced
+UNMOVED = 1e-12  # m, what rounding leaves of a shape at rest
 
 
 class SensitiveRope:
@@ -115,12 +116,13 @@ class SensitiveRope:
     def _sag(self, k: int) -> tuple[Array, Array]:
         """Change of the shape at rest and of its history along direction k, by central differences.
 
-        Shapes at rest cost little beside a run. A first small step tells which one moves the rope by SAG.
+        A first small step tells which one moves the rope by SAG, if any does.
         """
         step = ENDS_STEP * self._limit[k]
         moved = np.abs(self._rest(k, step)[0] - self.rope.state.q).max()
-        if moved > 0.0:
-            step = min(self._limit[k], step * SAG / moved)
+        step = min(self._limit[k], step * SAG / moved) if moved > UNMOVED else self._limit[k]
+        if moved <= UNMOVED and self._way[k] != CHANGED and not self._own[k]:
+            return np.zeros_like(self.rope.state.q), np.zeros(self._history.shape[1])
         (q, h), (q1, h1) = self._rest(k, -step), self._rest(k, step)
         return (q1 - q) / (2.0 * step), 0.5 * (h + h1) if self._own[k] else (h1 - h) / (2.0 * step)
 

@@ -223,8 +223,9 @@ def slopes(
     n, t, h, new, keep, kept, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, dp,
     limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift,
 ):  # fmt: skip
-    """Set D to new D + keep (dc - dM a) for the directions of blocks `begin` .. `end` - 1, where D is the derivative of the forces h ahead of (dq, dv, da).
+    """Set D to new D + keep (dc - dM a) for the directions of blocks `begin` .. `end` - 1.
 
+    On the right D is the derivative of the forces h ahead of (dq, dv, da).
     Keeps the histories that `kept` asks for, and in `lift` the derivatives of the vertical force on the sheave.
     """
     force = touch[FORCE_X]
@@ -254,13 +255,11 @@ def step_directions(
     arrive(n, t, h, exact, directions, p, q0, v0, hp, w, e0, f1, fc, way, touch, A, L, B, Z, moves, hb, power)
     guide(n, t, h, dt, s, directions, parameters, path, at, toward, limit, dpath, guided, p1, path1, q0, v0, a0, q, v, a,
           dq, dv, da)  # fmt: skip
-    force = touch[FORCE_X]
     for begin in range(0, blocks, GROUP):
         end = min(begin + GROUP, blocks)
-        touch[FORCE_X] = force
-        slopes(n, t, h, 1.0 - p[ALPHA], 1.0, OWN, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
-           toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
-           lift)  # fmt: skip
+        slopes(n, t, h, 1.0 - p[ALPHA], 1.0, OWN, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1,
+               fc, at, toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
+               lift)  # fmt: skip
         solve_blocks(n, h, parameters, begin, end, p, dp, a0, L, B, D, dq, dv, da, dc)
     for k in range(directions):
         if way[k] == CHANGED:
