@@ -9,7 +9,7 @@ moved to first order from where they are, and the difference keeps its figures h
 from .elastica import bend, sum_forces
 from .hooks import all_forces, all_moments
 from .jit import kernel
-from .slope import move_node, touch_again
+from .slope import touch_again
 from .slots import CA, EA, ELEMENT, RHO, G, J, M
 from .vector import LANES
 from .work import FX, INVERSE, MOMENT, SPIN, TENSION, TX, TY
@@ -77,14 +77,20 @@ def stretch_on(n, p, l0, w0, e0, moves, v, w):
 
 
 @kernel
+def move_node(m, i, e, at, h, q0, v0, dq, dv, da, moves, q, v):
+    """Set q and v of node i to where they are a step e along the direction whose entries begin at `at`, h ahead."""
+    for c in range(2):
+        k, j = at + (2 * i + c) * LANES, c * m + i
+        moves[j] = e * (dq[k] + h * (dv[k] + 0.5 * h * da[k]))
+        q[j], v[j] = q0[j] + moves[j], v0[j] + e * (dv[k] + h * da[k])
+
+
+@kernel
 def forces_on(n, t, p1, l0, w, e0, q0, v0, moves, q, v, w1, e, at, h, dq, dv, da, f, touch, hi, hd, power, Z):
     """Set f to what `dynamics.forces` gives a step e along a direction, h ahead of (dq, dv, da), with parameters p1."""
     m = n + 1
     for i in range(m):
-        move_node(m, i, e, at, h, q0, v0, dq, dv, da, q, v)
-        for c in range(2):
-            k = at + (2 * i + c) * LANES
-            moves[c * m + i] = e * (dq[k] + h * (dv[k] + 0.5 * h * da[k]))
+        move_node(m, i, e, at, h, q0, v0, dq, dv, da, moves, q, v)
     stretch_on(n, p1, l0, w, e0, moves, v, w1)
     bend(n, p1, w1)
     all_moments(n, p1, w1, hi, hd, power)

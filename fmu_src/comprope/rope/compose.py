@@ -28,6 +28,7 @@ from . import (
     ends,
     following,
     glance,
+    groove,
     hooks,
     jit,
     journey,
@@ -52,7 +53,7 @@ from .effects.base import Effect, Kernel
 
 MODULES = (
     work, words, jit, hooks, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics, standing, following,
-    travel, sensors, display, vector, lanes, slope, acting, tangent, journey, glance,
+    travel, sensors, display, vector, lanes, slope, groove, acting, tangent, journey, glance,
 )  # fmt: skip
 ARGUMENTS = {
     "moments": "n, p, w, h0, h1",

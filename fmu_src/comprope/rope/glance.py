@@ -4,8 +4,8 @@ from .dynamics import forces
 from .ends import place_ends
 from .hooks import all_begin
 from .jit import kernel
-from .sensors import crossing
-from .slots import ELEMENT
+from .sensors import crossing, sight
+from .slots import ELEMENT, R
 from .statics import rest
 from .vector import LANES
 
@@ -59,30 +59,39 @@ def weights(s):
 
 
 @kernel
-def look(n, directions, sensors, q0, dq, sides, depths, glances):
-    """Set glances[j directions + k] to the derivative along direction k of the outward position that sensor j sees.
+def look(n, directions, sensors, parameters, p, toward, q0, dq, sides, depths, seen, glances):
+    """Set row j of glances to what sensor j sees: outward displacement, 1 if the rope is there, derivatives along all directions.
 
-    A sensor at a fixed depth sees dy - (dy/dx) dx of the place on the rope that is before it. Next to the ends the
-    rope is seen as straight elements.
+    A sensor at a fixed depth sees dy - (dy/dx) dx of the place on the rope that is before it.
     """
-    m = n + 1
+    width = directions + 2
     for j in range(sensors):
-        x = depths[j]
-        i = seen_node(n, q0, int(sides[j]), x)
-        if 1 <= i <= n - 3:
-            s = crossing(q0, i, x)
-            lean = smooth_slope(q0, m, i, s) / smooth_slope(q0, 0, i, s)
-            a, b, c, d = weights(s)
-        elif i >= 0:
-            s = (x - q0[i]) / (q0[i + 1] - q0[i])
-            lean = (q0[m + i + 1] - q0[m + i]) / (q0[i + 1] - q0[i])
-            a, b, c, d = 0.0, 1.0 - s, s, 0.0
-        else:
-            i, lean, a, b, c, d = -1 - i, 0.0, 0.0, 1.0, 0.0, 0.0
+        side, x = int(sides[j]), depths[j]
+        sight(n, q0, side, x, seen)
+        glances[j * width], glances[j * width + 1] = side * seen[0] - p[R], seen[1]
+        i, lean, a, b, c, d = seen_place(n, q0, side, x)
         for k in range(directions):
-            at = (k // LANES * 2 * m + 2 * i) * LANES + k % LANES
-            dx = gather(dq, at, i, n, a, b, c, d)
-            glances[j * directions + k] = sides[j] * (gather(dq, at + LANES, i, n, a, b, c, d) - lean * dx)
+            at = (k // LANES * 2 * (n + 1) + 2 * i) * LANES + k % LANES
+            moved = gather(dq, at + LANES, i, n, a, b, c, d) - lean * gather(dq, at, i, n, a, b, c, d)
+            glances[j * width + 2 + k] = side * moved - toward[parameters * k + R]
+
+
+@kernel
+def seen_place(n, q, side, x):
+    """A node i, the rope's inclination dy/dx where it is seen, and how nodes i - 1 .. i + 2 weigh in what is seen.
+
+    Next to the ends elements are straight.
+    """
+    m, i = n + 1, seen_node(n, q, side, x)
+    if i < 0:
+        return -1 - i, 0.0, 0.0, 1.0, 0.0, 0.0
+    if i < 1 or i > n - 3:
+        length = q[i + 1] - q[i]
+        s = (x - q[i]) / length
+        return i, (q[m + i + 1] - q[m + i]) / length, 0.0, 1.0 - s, s, 0.0
+    s = crossing(q, i, x)
+    a, b, c, d = weights(s)
+    return i, smooth_slope(q, m, i, s) / smooth_slope(q, 0, i, s), a, b, c, d
 
 
 @kernel

@@ -15,7 +15,7 @@ from .words import FINE, TOO_LONG
 def march_tangent(
     n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count,
     state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, own, dq, dv, da,
-    dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D, lift,
+    dc, dh, p1, path1, centre, moves, w1, e0, f1, hp, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """What `march.march` does, to the same bits, and all directions beside it."""
     for k in range(steps):
@@ -30,7 +30,7 @@ def march_tangent(
                 accept(n, state_size, q, v, a, f, h1, q0, v0, a0, f0, h0)
                 step_directions(n, t0 + s * dt, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0,
                                 a0, hp, q, v, a, f, w, A, L, B, Z, touch, power, at, toward, dp, limit, dpath, guided, way, own,
-                                dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi, hb, hd, D,
+                                dq, dv, da, dc, dh, p1, path1, centre, moves, w1, e0, f1, hi, hb, hd, D,
                                 lift)  # fmt: skip
                 done += size
                 count[STEPS] += 1
@@ -46,7 +46,7 @@ def march_tangent(
 def travel_tangent(
     n, dt, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, P0, P, E, count, time,
     state_size, effects, told, exact, directions, blocks, parameters, at, toward, dp, limit, dpath, guided, way, own, dq, dv,
-    da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd, D, lift,
+    da, dc, dh, p1, path1, centre, moves, w1, e0, f1, hp, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """What `travel.travel` does, and all directions beside it."""
     t0, share = time[0], dt / p[STEP]
@@ -56,7 +56,7 @@ def travel_tangent(
     steps = max(1, ceil(share * (1.0 - 1e-9)))
     reached = march_tangent(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power,
                             P0, P, E, count, state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit,
-                            dpath, guided, way, own, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hp, hi, hb, hd,
+                            dpath, guided, way, own, dq, dv, da, dc, dh, p1, path1, centre, moves, w1, e0, f1, hp, hi, hb, hd,
                             D, lift)  # fmt: skip
     if reached == 1.0:
         time[0] = t0 + dt

@@ -68,9 +68,10 @@ class SensitiveRope:
     def _memory_of_kernels(self) -> dict[str, Array]:
         """The rope's own arrays, and those of all directions and of what is differenced."""
         do, count, m, p = self.rope._do, len(self.names), self.rope.n + 1, self.rope.p
-        sizes = dict.fromkeys(("hp", "hi", "hb", "hd"), do.moving["h0"].size) | dict.fromkeys(("moves", "e0", "f1", "fc"), 2 * m)
-        sizes |= {"w1": do.w.size, "lift": count, "path1": PATHS * PATH, "p1": p.size, "smooth1": p.size}
-        sizes |= {"D": self._blocks * 2 * m * LANES, "glances": len(self.rope.model.sensors) * count}
+        sizes = dict.fromkeys(("hp", "hi", "hb", "hd"), do.moving["h0"].size) | dict.fromkeys(("moves", "e0", "f1"), 2 * m)
+        sizes |= {"w1": do.w.size, "path1": PATHS * PATH, "p1": p.size, "smooth1": p.size}
+        sizes |= {"lift": self._blocks * LANES, "centre": 4 * LANES}
+        sizes |= {"D": self._blocks * 2 * m * LANES, "glances": len(self.rope.model.sensors) * (2 + count)}
         own: dict[str, Array] = {name: np.zeros(size) for name, size in sizes.items()}
         own |= {"at": self._at, "toward": self._toward, "dh": self._history, "limit": self._limit}
         own |= {"way": self._way, "own": self._own, "dp": in_lanes(self._toward), "dpath": self._end_paths()}
@@ -153,10 +154,17 @@ class SensitiveRope:
 
     # -- what it shows ---------------------------------------------------------------------------
 
+    def sights(self) -> Array:
+        """What each sensor of the model sees: outward displacement [m], 1 if the rope is there, derivatives along all directions.
+
+        Returns (sensors, 2 + directions); the next call overwrites it.
+        """
+        self._look()
+        return self._arrays["glances"].reshape(len(self.rope.model.sensors), 2 + len(self.names))
+
     def lateral_displacement(self) -> Array:
         """Derivatives of what the sensors of the model see [m per direction]: (sensors, directions)."""
-        self._look()
-        return self._arrays["glances"].reshape(len(self.rope.model.sensors), len(self.names)) - self._toward[:, R]
+        return self.sights()[:, 2:].copy()
 
     def sheave(self) -> dict[str, Array]:
         """Derivatives of the sheave's motion, by the names of `CompensationRope.sheave`: (directions,)."""
@@ -177,7 +185,7 @@ class SensitiveRope:
             f"{name}_end_tension": self._of_node("D", i, 0) - half * self._of_node("da", i, 0) - dhalf * a[i]
             for name, i in (("car", 0), ("counterweight", n - 1))
         }
-        return {"sheave_force": -self._arrays["lift"], **tensions}
+        return {"sheave_force": -self._arrays["lift"][: len(self.names)], **tensions}
 
     # -- state -----------------------------------------------------------------------------------
 

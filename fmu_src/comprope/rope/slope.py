@@ -3,8 +3,8 @@
     D = lim [f(q + e dq, v + e dv, p + e dp) - f(q, v, p)] / e
 
 Tension, bending, damping and weight are differentiated by hand, for LANES directions at a time and in one sweep
-along the rope; what happens at the groove, by differences (`contact_slope`). The parameters' changes dp
-have a lane for each direction as well: quantity j of a block at (parameters block + j) LANES.
+along the rope; `groove` does the same for the contact. The parameters' changes dp have a lane for each direction
+as well: quantity j of a block at (parameters block + j) LANES.
 """
 
 from .contact import near, touch_piece
@@ -174,28 +174,3 @@ def contact_alone(n, p, q, v, f, touch, Z, ck, cc, tangent):
         f[i], f[m + i] = 0.0, 0.0
     f[n], f[m + n] = 0.0, 0.0
     touch_again(n, p, q, v, f, touch, Z, ck, cc, tangent)
-
-
-@kernel
-def move_node(m, i, e, at, h, q0, v0, dq, dv, da, q, v):
-    """Set q and v of node i to where they are a step e along the direction whose entries begin at `at`, h ahead."""
-    for c in range(2):
-        k, j = at + (2 * i + c) * LANES, c * m + i
-        q[j] = q0[j] + e * (dq[k] + h * (dv[k] + 0.5 * h * da[k]))
-        v[j] = v0[j] + e * (dv[k] + h * da[k])
-
-
-@kernel
-def contact_slope(n, p1, e, at, h, new, q0, v0, dq, dv, da, q, v, f, f0, touch, Z, D):
-    """Add to D `new` times how the contact answers, by a difference e from its forces f0, with parameters p1 a step e away."""
-    m, first, last = n + 1, int(touch[FIRST]) - 1, int(touch[LAST]) + 1
-    for i in range(first, last + 1):
-        move_node(m, i, e, at, h, q0, v0, dq, dv, da, q, v)
-    move_node(m, n, e, at, h, q0, v0, dq, dv, da, q, v)
-    contact_alone(n, p1, q, v, f, touch, Z, 0.0, 0.0, False)
-    per_e = new / e
-    for i in range(first, last + 1):
-        D[at + 2 * LANES * i] += (f[i] - f0[i]) * per_e
-        D[at + (2 * i + 1) * LANES] += (f[m + i] - f0[m + i]) * per_e
-    D[at + 2 * LANES * n] += (f[n] - f0[n]) * per_e
-    D[at + (2 * n + 1) * LANES] += (f[m + n] - f0[m + n]) * per_e

@@ -20,20 +20,21 @@ from .acting import add_lane, begun_effects, forces_on, set_lane
 from .contact import clear
 from .dynamics import forces, node_mass
 from .ends import PATH, PATHS, place_ends
+from .groove import centre_slope, groove_slope
 from .jit import kernel
 from .lanes import solve_lanes
 from .newmark import renew
-from .slope import ahead, contact_alone, contact_slope, elongations, mass_slope, rope_slope
+from .slope import ahead, contact_alone, elongations, mass_slope, rope_slope
 from .slots import ALPHA, ELEMENT, J, M, R
 from .vector import LANES, put, take
 from .work import FIRST, FORCE_X, LAST
 from .zone import factor_zone, fill
 
-MOVE = 1e-7  # m, the largest move by which forces are differenced
+MOVE = 1e-7  # m, the largest move by which effects are differenced
 PERIOD = 0.1  # s, by which velocities are compared with moves
 TURN = 1e-3  # share of the sheave's turn, which matters to forces through an eccentric groove alone
 COARSE = 32  # nodes between those that are asked for the largest move
-GROUP = 2  # blocks that are carried on at once: enough to fill each other's waiting, few enough to stay at hand
+GROUP = 3  # blocks that are carried on at once: enough to fill each other's waiting, few enough to stay at hand
 ENDS_STEP = 1e-2  # of `limit`: the difference by which the ends' paths are differentiated
 
 # How forces are differentiated along a direction: by hand but for the contact; with the forces of effects that begin
@@ -84,8 +85,8 @@ def keep_history(state_size, k, e, own, hb, hd, dh):
 
 
 @kernel
-def renew_zone(n, h, p, q, v, fc, touch, A, L, B, Z):
-    """Set fc to the contact forces of the state reached, and factor their tangent anew in the factor's zone.
+def renew_zone(n, h, p, q, v, f, touch, A, L, B, Z):
+    """Factor the contact's tangent in the state reached anew in the factor's zone; f is free for use.
 
     The contact changes most between the iterate that was factored and the state reached; the rope's share in A
     stays as it was.
@@ -94,60 +95,69 @@ def renew_zone(n, h, p, q, v, fc, touch, A, L, B, Z):
     touch[FIRST], touch[LAST] = first + 1.0, last - 1.0
     clear(n, Z, first + 1, last - 1)
     ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
-    contact_alone(n, p, q, v, fc, touch, Z, ck, cc, True)
+    contact_alone(n, p, q, v, f, touch, Z, ck, cc, True)
     fill(n, A, Z, B, first, last)
     factor_zone(2 * (last - first + 1), B)
 
 
 @kernel
-def renew_all(n, t, h, p, q, v, h0, fc, f1, touch, w, A, L, B, Z, r, hb, power):
-    """Set fc to the contact forces of the state reached, and factor the whole tangent there."""
+def renew_all(n, t, h, p, q, v, h0, f1, touch, w, A, L, B, Z, r, hb, power):
+    """Factor the whole tangent in the state reached, where the forces are f1."""
     alpha = p[ALPHA]
     ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
     forces(n, t, p, q, v, w, f1, touch, h0, hb, power, Z, ck, cc, True)
     renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch)
-    contact_alone(n, p, q, v, fc, touch, Z, 0.0, 0.0, False)
 
 
 @kernel
 def arrive(
-    n, t, h, exact, directions, p, q0, v0, hp, w, e0, f1, fc, way, touch, A, L, B, Z, moves, hb, power,
+    n, t, h, exact, directions, p, q0, v0, hp, w, e0, f, f1, way, touch, A, L, B, Z, moves, hb, power,
 ):  # fmt: skip
-    """What all directions start from in the state reached: forces f1 if any is differenced, contact fc, elongations, J."""
+    """What all directions start from in the state reached: forces f1 if any is differenced, elongations e0, J."""
     if exact:
-        renew_all(n, t, h, p, q0, v0, hp, fc, f1, touch, w, A, L, B, Z, moves, hb, power)
+        renew_all(n, t, h, p, q0, v0, hp, f1, touch, w, A, L, B, Z, moves, hb, power)
     else:
         for k in range(directions):
             if way[k] >= DIFFERENCED:
                 forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
                 break
-        renew_zone(n, h, p, q0, v0, fc, touch, A, L, B, Z)
+        renew_zone(n, h, p, q0, v0, f, touch, A, L, B, Z)
     elongations(n, p, v0, w, e0)
 
 
 @kernel
-def slope(
-    n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at, toward, limit, way, own, dq, dv, da,
+def effect_slope(
+    n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, h0, w, e0, f1, at, toward, limit, way, own, dq, dv, da,
     dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D,
 ):  # fmt: skip
-    """Complete D for direction k, where it has the rope's part (see `rope_slope`); returns the step of differences.
-
-    Touch is left as it is that step away.
-    """
+    """Complete D for a direction along which effects act; returns the step of differences, at which touch is left."""
     b = entry(n + 1, k)
     e = gauge(n, b, p[R], limit[k], dq, dv)
     shift(parameters, k, e, at, toward, p1)
-    if way[k] != BY_HAND:
-        recall(state_size, k, e, own, h0, dh, hi)
+    recall(state_size, k, e, own, h0, dh, hi)
     if way[k] == BEGUN:
         begun_effects(n, t, p1, q0, v0, w, f, hi, hd, power)
         add_lane(n, new / e, f, b, D)
-    if way[k] <= BEGUN:
-        contact_slope(n, p1, e, b, h, new, q0, v0, dq, dv, da, q, v, f, fc, touch, Z, D)
     else:
         forces_on(n, t, p1, p[ELEMENT], w, e0, q0, v0, moves, q, v, w1, e, b, h, dq, dv, da, f, touch, hi, hd, power, Z)
         set_lane(n, new / e, keep, f, f1, a0, p, toward, parameters * k, dc, b, D)
     return e
+
+
+@kernel
+def block_slope(
+    n, h, new, keep, directions, block, parameters, p, q0, v0, a0, w, e0, at, toward, dp, limit, dq, dv, da, dc, p1, centre,
+    touch, D, lift,
+):  # fmt: skip
+    """Set a block of D to the rope's and the contact's part, and its part of lift (see `slopes`)."""
+    m, d, base = n + 1, parameters * LANES * block, 2 * (n + 1) * LANES * block
+    rope_slope(n, p, v0, a0, w, e0, dp, d, base, h, new, keep, dq, dv, da, dc, D)
+    for k in range(block * LANES, min(block * LANES + LANES, directions)):
+        b = entry(m, k) + (2 * n + 1) * LANES
+        e = gauge(n, entry(m, k), p[R], limit[k], dq, dv)
+        shift(parameters, k, e, at, toward, p1)
+        centre_slope(m, e, p, p1, q0[m + n], dq[b] + h * (dv[b] + 0.5 * h * da[b]), k % LANES, centre)
+    groove_slope(n, p, q0, v0, dp, d, base, h, new, centre, dq, dv, da, touch, D, lift, block * LANES)
 
 
 @kernel
@@ -220,30 +230,32 @@ def solve_blocks(n, h, parameters, begin, end, p, dp, a0, L, B, D, dq, dv, da, d
 
 @kernel
 def slopes(
-    n, t, h, new, keep, kept, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, dp,
-    limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift,
+    n, t, h, new, keep, kept, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1, at, toward, dp,
+    limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift,
 ):  # fmt: skip
     """Set D to new D + keep (dc - dM a) for the directions of blocks `begin` .. `end` - 1.
 
-    On the right D is the derivative of the forces h ahead of (dq, dv, da).
-    Keeps the histories that `kept` asks for, and in `lift` the derivatives of the vertical force on the sheave.
+    On the right D is the derivative of the forces h ahead of (dq, dv, da). Keeps the histories that `kept` asks for, and
+    in `lift` the derivatives of the vertical force on the sheave, which touch has.
     """
     force = touch[FORCE_X]
     for block in range(begin, end):
-        rope_slope(n, p, v0, a0, w, e0, dp, parameters * LANES * block, 2 * (n + 1) * LANES * block, h, new, keep, dq, dv,
-                   da, dc, D)  # fmt: skip
+        block_slope(n, h, new, keep, directions, block, parameters, p, q0, v0, a0, w, e0, at, toward, dp, limit, dq, dv, da,
+                    dc, p1, centre, touch, D, lift)  # fmt: skip
     for k in range(begin * LANES, min(end * LANES, directions)):
-        e = slope(n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at, toward, limit, way, own,
-                  dq, dv, da, dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
-        lift[k] = (touch[FORCE_X] - force) / e
-        if kept == ALL or (kept == OWN and own[k] != 0.0):
-            keep_history(state_size, k, e, own, hb, hd, dh)
+        if way[k] != BY_HAND:
+            e = effect_slope(n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, hp, w, e0, f1, at, toward, limit,
+                             way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
+            if way[k] >= DIFFERENCED:
+                lift[k] = (touch[FORCE_X] - force) / e
+            if kept == ALL or (kept == OWN and own[k] != 0.0):
+                keep_history(state_size, k, e, own, hb, hd, dh)
 
 
 @kernel
 def step_directions(
     n, t, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, A, L, B, Z,
-    touch, power, at, toward, dp, limit, dpath, guided, way, own, dq, dv, da, dc, dh, p1, path1, moves, w1, e0, f1, fc, hi,
+    touch, power, at, toward, dp, limit, dpath, guided, way, own, dq, dv, da, dc, dh, p1, path1, centre, moves, w1, e0, f1, hi,
     hb, hd, D, lift,
 ):  # fmt: skip
     """Carry all directions over an accepted step of length h that has ended at (q0, v0, a0); hp is the history before it.
@@ -252,32 +264,31 @@ def step_directions(
     """
     if directions == 0:
         return
-    arrive(n, t, h, exact, directions, p, q0, v0, hp, w, e0, f1, fc, way, touch, A, L, B, Z, moves, hb, power)
+    arrive(n, t, h, exact, directions, p, q0, v0, hp, w, e0, f, f1, way, touch, A, L, B, Z, moves, hb, power)
     guide(n, t, h, dt, s, directions, parameters, path, at, toward, limit, dpath, guided, p1, path1, q0, v0, a0, q, v, a,
           dq, dv, da)  # fmt: skip
     for begin in range(0, blocks, GROUP):
         end = min(begin + GROUP, blocks)
         slopes(n, t, h, 1.0 - p[ALPHA], 1.0, OWN, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1,
-               fc, at, toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
-               lift)  # fmt: skip
+               at, toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, Z,
+               D, lift)  # fmt: skip
         solve_blocks(n, h, parameters, begin, end, p, dp, a0, L, B, D, dq, dv, da, dc)
     for k in range(directions):
         if way[k] == CHANGED:
-            slopes(n, t, 0.0, 1.0, 0.0, ALL, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, fc, at,
-                   toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
-                   lift)  # fmt: skip
+            slopes(n, t, 0.0, 1.0, 0.0, ALL, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, at,
+                   toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, Z,
+                   D, lift)  # fmt: skip
             return
 
 
 @kernel
 def differentiate(
     n, t, state_size, directions, blocks, parameters, p, q0, v0, a0, h0, q, v, f, w, Z, touch, power, at, toward, dp, limit,
-    way, own, dq, dv, da, dc, dh, p1, moves, w1, e0, f1, fc, hi, hb, hd, D, lift,
+    way, own, dq, dv, da, dc, dh, p1, centre, moves, w1, e0, f1, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """Set D to the derivative of the forces along all directions, and lift to that of the vertical force on the sheave."""
     forces(n, t, p, q0, v0, w, f1, touch, h0, hb, power, Z, 0.0, 0.0, False)
     elongations(n, p, v0, w, e0)
-    contact_alone(n, p, q0, v0, fc, touch, Z, 0.0, 0.0, False)
-    slopes(n, t, 0.0, 1.0, 0.0, NONE, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, fc, at,
-           toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
+    slopes(n, t, 0.0, 1.0, 0.0, NONE, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, at,
+           toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
            lift)  # fmt: skip

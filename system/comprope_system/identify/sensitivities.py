@@ -61,24 +61,24 @@ def _drive(
     rope.settle(-paths[0, 0, 0], -paths[0, 2, 0], time=float(grid[0]))
     seen = {column: np.zeros((len(grid), 1 + len(rope.names))) for column in channels}
     hidden = {column: np.zeros(len(grid)) for column in channels}
-    lasers = {column: _place(rope, one) for column, one in channels.items() if one.quantity == "lateral_displacement"}
+    looked = np.zeros((len(grid), len(rope.rope.model.sensors), 2 + len(rope.names)))
+    lasers = {column: _number(rope, one) for column, one in channels.items() if one.quantity == "lateral_displacement"}
     others = {column: one.quantity for column, one in channels.items() if column not in lasers}
     for k in range(len(grid)):
         if k:
             rope.step(GRID, np.concatenate([paths[k - 1], paths[k]], axis=1).ravel())
         if lasers:
-            sights = rope.lateral_displacement()
-        for column, (j, side, height) in lasers.items():
-            seen[column][k, 0], visible = rope.rope.lateral_displacement(side, height)
-            seen[column][k, 1:], hidden[column][k] = sights[j], not visible
+            looked[k] = rope.sights()
         if others:
             _note(rope, others, {column: values[k] for column, values in seen.items()})
+    for column, j in lasers.items():
+        seen[column][:, 0], hidden[column], seen[column][:, 1:] = looked[:, j, 0], 1.0 - looked[:, j, 1], looked[:, j, 2:]
     return seen, hidden
 
 
-def _place(rope: SensitiveRope, channel: Channel) -> tuple[int, str, float]:
-    """Number, side and height of the sensor that a channel reads."""
-    return next((j, one.side, one.height) for j, one in enumerate(rope.rope.model.sensors) if one.name == channel.sensor)
+def _number(rope: SensitiveRope, channel: Channel) -> int:
+    """Number of the sensor that a channel reads."""
+    return [one.name for one in rope.rope.model.sensors].index(str(channel.sensor))
 
 
 def _note(rope: SensitiveRope, others: Mapping[str, str], rows: Mapping[str, Floats]) -> None:
