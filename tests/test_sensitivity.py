@@ -61,7 +61,11 @@ MOTIONS, FORCES = ("cw_low", "car_low", "axle", "turning"), ("weight", "pull")
 # By what share of a parameter whole runs are differenced: little where the mesh moves along the sheave, so that hardly a node
 # comes to touch it that did not; much where the answer is small beside the 1e-8 m to which a time step converges.
 SHARE = 1e-5
-SHARES = {"radius": 1e-6, "pit": 1e-6, "drag": 0.1, "slip": 1e-3, "sway": 1e-3, "bent": 1e-3, "guides": 1e-3}
+SHARES = {"radius": 1e-7, "pit": 1e-7, "inertia": 1e-6, "drag": 0.1, "slip": 1e-4, "sway": 1e-4, "bent": 1e-4,
+          "guides": 1e-3}  # fmt: skip
+
+# What a tenth of a parameter may change without anybody seeing it: a hundredth of a fine instrument's noise.
+UNSEEN = {"cw_low": 1e-6, "car_low": 1e-6, "axle": 1e-7, "turning": 1e-5, "weight": 1e-2, "pull": 1e-2}
 
 
 @cache
@@ -84,8 +88,7 @@ def differences(changes: tuple[tuple[str, float], ...], name: str) -> dict[str, 
     run, model, direction = measured(), with_changes(MODEL, dict(changes)), DIRECTIONS[name]
     base = values_of(with_changes(model, run.changes))
     values = {key: base.get(key, DECLARED[key].neutral) for key in direction}
-    sizes = [max(abs(values[key]), DECLARED[key].nominal) / abs(amount) for key, amount in direction.items()]
-    step = SHARES.get(name, SHARE) * min(sizes)
+    step = SHARES.get(name, SHARE) * size(changes, name)
     bounded = any(values[key] - step * amount < DECLARED[key].minimum for key, amount in direction.items())
 
     def moved(steps: float) -> dict[str, np.ndarray]:
@@ -102,22 +105,32 @@ def rms(values: np.ndarray) -> float:
 
 
 def errors(changes: dict[str, float], name: str, *, exact: bool) -> dict[str, float]:
-    """Errors over signals, both rms, by channel."""
+    """Errors over signals, both rms, by channel; no signal counts as less than what is UNSEEN."""
     table = tuple(changes.items())
-    found, expected = sensitivities(table, exact)[name], differences(table, name)
-    return {column: rms(found[column] - expected[column]) / rms(expected[column]) for column in CHANNELS}
+    found, expected, tenth = sensitivities(table, exact)[name], differences(table, name), 0.1 * size(table, name)
+    least = {column: UNSEEN[column] / tenth for column in CHANNELS}
+    return {column: rms(found[column] - expected[column]) / max(rms(expected[column]), least[column]) for column in CHANNELS}
+
+
+def size(changes: tuple[tuple[str, float], ...], name: str) -> float:
+    """How many times a direction goes into its smallest parameter, or into that one's typical value."""
+    base = values_of(with_changes(with_changes(MODEL, dict(changes)), measured().changes))
+    values = {key: base.get(key, DECLARED[key].neutral) for key in DIRECTIONS[name]}
+    return min(max(abs(values[key]), DECLARED[key].nominal) / abs(amount) for key, amount in DIRECTIONS[name].items())
 
 
 @pytest.mark.parametrize("name", DIRECTIONS)
 def test_derivatives_are_those_of_whole_runs(name: str) -> None:
     """With the tangent factored where each step ends.
 
-    What is left, up to 0.5 %, is the quadrature points of the contact that begin to touch within the difference of runs;
-    forces on the sheave and the ends also have what a converged step leaves unbalanced, and drag hardly changes them.
+    What is left, up to 0.5 %, is the quadrature points of the contact that begin to touch within the difference of runs.
+    What a converged step leaves unbalanced, 1e-8 m, shows in forces, and in the turning of a sheave that bending
+    and weight hardly turn: steps converged to 1e-11 m leave 0.15 % there.
     """
     left = errors(ABSENT, name, exact=True)
-    assert max(left[column] for column in MOTIONS) < 0.007
-    assert max(left[column] for column in FORCES) < (0.06 if name == "drag" else 0.02)
+    assert max(left[column] for column in MOTIONS[:3]) < 0.007
+    assert left["turning"] < (0.025 if name in ("bending", "sheave mass") else 0.007)
+    assert max(left[column] for column in FORCES) < (0.06 if name in ("bending", "drag") else 0.02)
 
 
 @pytest.mark.parametrize("name", DIRECTIONS)

@@ -5,9 +5,10 @@ i+1, which is smooth where pieces meet and stays within the band of the tangent.
 point, with penetration p of the groove's circle and its rate,
 
     P = max(0, k p + c p / (p + fade) dp/dt)  per length, outward,
-    F = -mu P v_s / sqrt(v_s^2 + v_0^2)       along the groove, v_s the slip velocity.
+    F = -mu P v_s / sqrt(v_s^2 + v_0^2)       along the groove, v_s = v_t - R theta' the slip velocity.
 
-The damping fades in with penetration, so that it does not switch on at first touch. The B-spline of
+Friction acts on the sheave with the arm R of eq. (2), however far the rope sinks into the groove: a turn winds
+2 pi R of rope whatever the tension. The damping fades in with penetration, so that it does not switch on at first touch. The B-spline of
 nodes that wrap a circle lies l^2 / (8 R) inside them; holding it at R_c = R - l^2 / (12 R) gives the
 polygon the pitch of R exactly (rope per radian), and the rope leaves the sheave where a continuous
 one does, both to fourth order in l / R.
@@ -129,22 +130,23 @@ def touch_piece(n, p, q, v, f, touch, i, ex, ey, gx, gy, Z, ck, cc, tangent):
             vx, vy = na * v[i - 1] + nb * v[i] + nc * v[i + 1] - vx0, na * v[m + i - 1] + nb * v[m + i] + nc * v[m + i + 1] - vy0
             rho = sqrt(square)
             nx, ny = dx / rho, dy / rho
-            depth, rate, slip = radius - rho, -(nx * vx + ny * vy), nx * vy - ny * vx + spin * rho
+            depth, rate, slip = radius - rho, -(nx * vx + ny * vy), nx * vy - ny * vx + spin * radius
             P, P_depth, P_rate = normal_law(p, depth, rate)
             grip, grip_slip = friction_law(p, slip)
             hx, hy = length * P * (nx + grip * ny), length * P * (ny - grip * nx)
             ax, ay, bx, by, cx, cy = ax + na * hx, ay + na * hy, bx + nb * hx, by + nb * hy, cx + nc * hx, cy + nc * hy
-            turn += hx * (gx + dy) + hy * (gy - dx)
+            lx, ly = gx + radius * ny, gy - radius * nx
+            turn += hx * lx + hy * ly
             touch[ELASTIC] += 0.5 * length * p[K] * depth * depth
             touch[NORMAL_LOSS] += length * (P - p[K] * depth) * rate
             touch[FRICTION_LOSS] += length * P * grip * slip
             if tangent:
-                axx, axy, ayx, ayy = linearise(ck, cc, nx, ny, vx, vy, rho, spin, P, P_depth, P_rate, grip, grip_slip)
+                axx, axy, ayx, ayy = linearise(ck, cc, nx, ny, vx, vy, rho, P, P_depth, P_rate, grip, grip_slip)
                 axx, axy, ayx, ayy = length * axx, length * axy, length * ayx, length * ayy
-                drive = -cc * length * P * grip_slip * rho
+                drive, stiff = -cc * length * P * grip_slip * radius, ck * length * P * radius / rho
                 scatter(n, i, na, nb, nc, Z, axx, axy, ayx, ayy, gx, gy, -drive * ny, drive * nx)
                 turn_rows(
-                    n, i, na, nb, nc, Z, axx, axy, ayx, ayy, gx, gy, -drive * ny, drive * nx, gx + dy, gy - dx, ck * hx, ck * hy
+                    n, i, na, nb, nc, Z, axx, axy, ayx, ayy, gx, gy, -drive * ny, drive * nx, lx, ly, stiff * nx, stiff * ny
                 )
     add_to_nodes(n, f, touch, i, ax, ay, bx, by, cx, cy, turn)
 
@@ -165,7 +167,7 @@ def add_to_nodes(n, f, touch, i, ax, ay, bx, by, cx, cy, turn):
 
 
 @kernel
-def linearise(ck, cc, nx, ny, vx, vy, rho, spin, P, P_depth, P_rate, grip, grip_slip):
+def linearise(ck, cc, nx, ny, vx, vy, rho, P, P_depth, P_rate, grip, grip_slip):
     """Derivative of F = P (n - grip tau) by relative position (weight ck) and relative velocity (cc).
 
     A motion along n reduces the depth; one along tau turns n by 1 / rho.
@@ -173,9 +175,9 @@ def linearise(ck, cc, nx, ny, vx, vy, rho, spin, P, P_depth, P_rate, grip, grip_
     tx, ty = -ny, nx
     vn, vt = nx * vx + ny * vy, tx * vx + ty * vy
     P_n, P_t = -ck * P_depth - cc * P_rate, -ck * P_rate * vt / rho
-    s_n, s_t = ck * spin, cc - ck * vn / rho
+    s_t = cc - ck * vn / rho
     nn, nt = P_n, P_t + ck * P * grip / rho
-    tn, tt = -P_n * grip - P * grip_slip * s_n, ck * P / rho - P_t * grip - P * grip_slip * s_t
+    tn, tt = -P_n * grip, ck * P / rho - P_t * grip - P * grip_slip * s_t
     return (
         nx * (nn * nx + nt * tx) + tx * (tn * nx + tt * tx),
         nx * (nn * ny + nt * ty) + tx * (tn * ny + tt * ty),

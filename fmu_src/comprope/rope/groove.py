@@ -4,7 +4,7 @@ All of a block's directions go through the contact's quadrature points together.
 velocity relative to the groove's centre, rho = |r|, n = r / rho, and forces h = P (n + grip tau) on the rope,
 
     drho = n . dr,  dn = (dr - n drho) / rho,
-    ddepth = dR_c - drho,  drate = -(dn . u + n . du),  dslip = dn x u + n x du + dspin rho + spin drho.
+    ddepth = dR_c - drho,  drate = -(dn . u + n . du),  dslip = dn x u + n x du + dspin R_c + spin dR_c.
 
 How the groove's centre itself answers is read off `all_groove` by differences, whatever effects move it.
 """
@@ -45,19 +45,20 @@ def point_slope(p, dp, d, radius, spin, dx, dy, vx, vy, gx, gy, dradius, grown, 
     """Changes of a quadrature point's force on the rope and of its torque on the sheave, by those of r (a) and u (b)."""
     rho = sqrt(dx * dx + dy * dy)
     nx, ny, per_rho = dx / rho, dy / rho, 1.0 / rho
-    depth, rate, slip = radius - rho, -(nx * vx + ny * vy), nx * vy - ny * vx + spin * rho
+    depth, rate, slip = radius - rho, -(nx * vx + ny * vy), nx * vy - ny * vx + spin * radius
     P, grip = normal_law(p, depth, rate)[0], friction_law(p, slip)[0]
     away, across = nx * ax + ny * ay, nx * ay - ny * ax
     mx, my = (-ny * per_rho) * across, (nx * per_rho) * across
     drate = 0.0 * away - vx * mx - vy * my - nx * bx - ny * by
-    dslip = vy * mx - vx * my + nx * by - ny * bx + rho * dspin + spin * away
+    dslip = vy * mx - vx * my + nx * by - ny * bx + radius * dspin + spin * dradius
     dP, dgrip = law_slope(p, dp, d, depth, rate, slip, dradius - away, drate, dslip)
     length = p[ELEMENT] / POINTS
     sx, sy = nx + grip * ny, ny - grip * nx
     dP = length * (dP + P * grown)
     hx = sx * dP + (length * P) * (mx + grip * my + ny * dgrip)
     hy = sy * dP + (length * P) * (my - grip * mx - nx * dgrip)
-    twist = (gx + dy) * hx + (gy - dx) * hy + (length * P * sx) * (dgx + ay) + (length * P * sy) * (dgy - ax)
+    armx, army = dgx + radius * my + ny * dradius, dgy - radius * mx - nx * dradius
+    twist = (gx + radius * ny) * hx + (gy - radius * nx) * hy + (length * P * sx) * armx + (length * P * sy) * army
     return hx, hy, twist
 
 
