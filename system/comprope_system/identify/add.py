@@ -1,6 +1,6 @@
 """Add an effect to a model: fitted on the fit runs with the plant's parameters, judged on the runs held out."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from typing import Any
@@ -14,44 +14,30 @@ from .campaign import Campaign
 from .compare import Comparison, compare
 from .fit import Fitted, refine
 from .hypotheses import NUISANCES, Hypothesis
-from .linear import by_effect, by_plant
+from .linear import by_effect, linearised, point_of
 from .plain import plain
 from .point import Point, Predictions, gathered, submit
 from .present import alternatives, grouped, joined, name_of, present, shape_of, short_names
-from .problem import Problem, pose, solve
+from .problem import Problem, pose
+from .screen import looks_at
 from .spectrum import frequencies
-from .values import Value, effect_results, model_of, plant_results, scale_of, set_by_runs
+from .values import Value, effect_results, model_of, plant_results, set_by_runs, widening
 
 Floats = NDArray[np.float64]
 Say = Callable[[str], None]
 
 
 @dataclass(frozen=True)
-class Held(Problem):
-    """A problem in which plant parameters that runs state are believed: a model file could not change them."""
-
-    held: frozenset[str] = frozenset()
-
-    def predictions(self, *points: Point) -> list[Predictions]:
-        """As `Problem.predictions`, whatever the points say of what is held."""
-        return super().predictions(*(replace(one, plant=self.free(one.plant)) for one in points))
-
-    def free(self, plant: Mapping[str, float]) -> dict[str, float]:
-        """Coefficients of what is not held."""
-        return {name: value for name, value in plant.items() if name not in self.held}
-
-
-@dataclass(frozen=True)
 class Ground:
     """What every fit to a campaign begins with: its weighed data, derivatives by the plant, and the plant refitted alone.
 
-    `fitted` has the effects that are in the model already, refitted too.
+    `by` (N, k) are derivatives by plant and effects that are in the model already; `fitted` has both refitted.
     """
 
     campaign: Campaign
-    problem: Held
+    problem: Problem
     nominal: Predictions
-    plant: Floats
+    by: Floats
     fitted: Fitted
 
 
@@ -61,12 +47,13 @@ def prepare(campaign: Campaign, executor: Executor, say: Say = lambda _: None) -
     say("the model as it is")
     nominal = gathered(runs, submit(campaign, runs, Point(), executor))
     posed = pose(campaign, runs, executor, nominal)
-    problem = Held(posed.campaign, posed.runs, posed.parts, posed.data, executor, frozenset(set_by_runs(campaign)))
+    # A model file could not change what runs state.
+    problem = replace(posed, held=frozenset(set_by_runs(campaign)))
     say("plant parameters")
-    plant = by_plant(problem, Point(), problem.whitened(nominal))
     hypothesis, coefficients = present(campaign)
     start = np.concatenate([np.zeros(len(NUISANCES)), coefficients])
-    return Ground(campaign, problem, nominal, plant, refine(problem, hypothesis, start, Point(), plant))
+    begun = linearised(problem, hypothesis, start, Point())
+    return Ground(campaign, problem, nominal, begun[1], refine(problem, hypothesis, start, Point(), begun=begun))
 
 
 @dataclass(frozen=True)
@@ -105,6 +92,7 @@ class Added:
                 {"file": a.file, "role": a.role, "error_before": a.nrmse, "error_after": b.nrmse}
                 for a, b in zip(self.before.runs, self.after.runs, strict=True)
             ],
+            "by_run": {file: dict(shifts) for file, shifts in self.fitted.point.shifts.items()},
             "intervals": {key: one.to_json() for key, one in self.effects.items()},
             "plant": {key: one.to_json() for key, one in self.plant.items()},
             "misfit_per_datum": self.fitted.misfit / max(len(self.ground.problem.data), 1),
@@ -133,17 +121,14 @@ def _best_start(ground: Ground, tried: list[Hypothesis]) -> tuple[Hypothesis, Fl
     The look is taken from the model as it stands: a plant fitted without the effect is bent to make up for it.
     """
     problem, (old, own) = ground.problem, present(ground.campaign)
-    y, zeros = problem.whitened(ground.nominal), np.zeros(len(NUISANCES))
-    beside = by_effect(problem, old, Point(), list(own), ground.nominal) if old else np.zeros((len(y), 0))
-    looks = []
-    for one in tried:
-        none = np.zeros(len(one.directions))
-        by = by_effect(problem, one, Point(), list(none), ground.nominal)
-        directions = [*NUISANCES, *one.directions, *(old.directions if old else ())]
-        matrix = np.hstack([ground.plant, by, beside])
-        looks.append((solve(problem.data - y, matrix, directions, np.concatenate([zeros, none, own])), one))
-    found, best = min(looks, key=lambda look: look[0].misfit)
-    return best, found.coefficients
+    plant = len(NUISANCES)
+    origin = point_of(old, [*np.zeros(plant), *own], Point())
+    columns = {one: by_effect(problem, one, origin, ground.nominal) for one in tried}
+    residual = problem.data - problem.whitened(ground.nominal)
+    looks = [look for one, by in columns.items() for look in looks_at(problem, one, residual, ground.by, by, columns)]
+    best = min(looks, key=lambda look: look.strained)
+    new = best.start[plant + len(own) :]
+    return best.hypothesis, np.concatenate([best.start[:plant], new, own + best.start[plant : plant + len(own)]])
 
 
 def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fitted:
@@ -156,7 +141,7 @@ def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fi
     begin = start if len(start) > count else np.concatenate([start, known.coefficients[len(NUISANCES) :]])
     begin = np.array(begin)
     begin[[k for k, one in enumerate(NUISANCES) if one.name in ground.problem.held]] = 0.0
-    fitted = refine(ground.problem, joined([new, *old]), begin, Point(), ground.plant)
+    fitted = refine(ground.problem, joined([new, *old]), begin, Point())
     return _shaped(ground, new, old, fitted)
 
 
@@ -166,13 +151,13 @@ def _shaped(ground: Ground, new: Hypothesis, old: list[Hypothesis], fitted: Fitt
     if not shapes:
         return fitted
     begin = np.concatenate([fitted.coefficients, np.zeros(len(shapes))])
-    freed = refine(ground.problem, joined([new, *old, *shapes]), begin, Point(), ground.plant)
-    return freed if freed.cost < fitted.cost else fitted
+    freed = refine(ground.problem, joined([new, *old, *shapes]), begin, Point())
+    return freed if freed.cost() < fitted.cost() else fitted
 
 
 def added(ground: Ground, effect: str, fitted: Fitted, executor: Executor, was_there: bool = False) -> Added:
     """Make the model of a fit and judge it on all runs."""
-    campaign, scale = ground.campaign, scale_of(fitted, len(ground.problem.data))
+    campaign, scale = ground.campaign, widening(fitted, len(ground.problem.data))
     deviations = scale * fitted.deviation[len(NUISANCES) :]
     model = model_of(campaign, fitted)
     return Added(
@@ -181,7 +166,7 @@ def added(ground: Ground, effect: str, fitted: Fitted, executor: Executor, was_t
         plant_results(campaign, fitted, scale),
         compare(campaign, executor),
         compare(replace(campaign, model=model_of(campaign, ground.fitted)), executor),
-        compare(replace(campaign, model=model), executor),
+        compare(replace(campaign, model=model), executor, Point(shifts=fitted.point.shifts)),
     )  # fmt: skip
 
 
@@ -199,6 +184,7 @@ def heading(one: Added) -> str:
         "Fitted values with one standard deviation:",
         *(f"  {key} = {value.told()}" for key, value in effects.items()),
         *(f"  {key} = {value.told()} (was {value.before:.4g})" for key, value in plant.items()),
+        *(f"In {file} {key} was {shift:+.3g} from that." for file, own in one.fitted.point.shifts.items() for key, shift in own.items()),
     ]
     return "\n".join(lines)
 

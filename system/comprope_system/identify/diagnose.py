@@ -6,31 +6,33 @@ compare misfits as ratios, as if LOOKS independent looks had been taken: the dis
 one and the same in thousands of samples, which a plain likelihood would count as evidence each.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import log
 
 import numpy as np
 from numpy.typing import NDArray
 
+from comprope.errors import SimulationError
+
 from .campaign import Campaign
 from .errors_of import nrmse
 from .fit import Fitted, refine
-from .hypotheses import NUISANCES, Direction, Hypothesis, hypotheses, of_instruments, together
-from .linear import by_effect, by_plant, unit_points
+from .hypotheses import NUISANCES, Hypothesis, together
+from .linear import linearised, point_of
 from .point import Point, Predictions, gathered, submit
-from .problem import Problem, pose, solve
-from .spectrum import frequencies
+from .problem import Problem, pose
+from .screen import LOOKS, Screened, screen
 
 Floats = NDArray[np.float64]
 Say = Callable[[str], None]
 
-LOOKS = 40.0  # independent looks that a campaign is worth
-PRICE = 1.5  # of the score, for each parameter of an effect
 UNEXPLAINED = 0.04  # of the misfit that is too much: what "none of the known effects" stands for
 ADEQUATE = 0.95  # misfit per datum below which there is nothing to explain
 REFINED = 4  # hypotheses that are refined on the full model
+RIVAL = 2.0  # times the best fit's misfit above which a fit is not worth its time
 SECOND = 0.7  # of the misfit that the best effect may leave if a second one is to be looked for
 PAIRS = 2  # second effects that are refined with the first
 ALIKE = 0.7  # cosine above which two effects look the same in these data
@@ -77,11 +79,11 @@ def diagnose(campaign: Campaign, executor: Executor, say: Say = lambda _: None, 
     nominal = gathered(runs, submit(campaign, runs, origin, executor))
     problem = pose(campaign, runs, executor, nominal)
     say("plant parameters")
-    plant = by_plant(problem, origin, problem.whitened(nominal))
-    none = refine(problem, None, np.zeros(len(NUISANCES)), origin, plant)
+    begun = linearised(problem, None, np.zeros(len(NUISANCES)), origin)
+    none = refine(problem, None, np.zeros(len(NUISANCES)), origin, begun=begun)
     say("every effect, linearised")
-    screened = _screen(problem, campaign, origin, nominal, plant, none)
-    found = _refined(problem, origin, screened, plant, none, say)
+    screened = screen(problem, origin, nominal, begun[1], none)
+    found = _refined(problem, origin, screened, none, say)
     judged = _judged(campaign, problem, nominal, none, found)
     return _second_look(judged, found, origin, say) if judged.kind == "unknown_effect" else judged
 
@@ -94,103 +96,59 @@ def _second_look(judged: Diagnosis, found: list["Trial"], origin: Point, say: Sa
     problem, first = judged.problem, best[1]
     assert first.hypothesis is not None
     say(f"{first.hypothesis.effect} and a second effect, linearised")
-    plant = by_plant(problem, first.point, problem.whitened(first.predictions))
-    own = by_effect(
-        problem, first.hypothesis, replace(origin, plant=first.point.plant), first.effect_coefficients, first.predictions
-    )
-    screened = _screen(problem, judged.campaign, first.point, first.predictions, np.hstack([plant, own]), first)
-    pairs = [_pair(problem, origin, first, one, plant, say) for one in screened[:PAIRS]]
+    screened = screen(problem, first.point, first.predictions, first.by, first)
+    pairs = [_pair(problem, origin, first, one, say) for one in screened[:PAIRS]]
     return _judged(judged.campaign, problem, judged.nominal, judged.none, [*found, min(pairs, key=lambda one: one[1].misfit)])
 
 
-def _pair(problem: Problem, origin: Point, first: Fitted, second: "Screened", plant: Floats, say: Say) -> "Trial":
+def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say: Say) -> "Trial":
     """Both effects refined together on the full model."""
     assert first.hypothesis is not None
     both = together(first.hypothesis, second.hypothesis)
     say(f"{both.effect}, on the full model")
     start = np.concatenate([first.coefficients, np.zeros(len(second.hypothesis.directions))])
     start[:] += second.start
-    fitted = refine(problem, both, start, origin, plant)
+    fitted = refine(problem, both, start, origin)
     return replace(second, hypothesis=both), fitted, True
-
-
-@dataclass(frozen=True)
-class Screened:
-    """A hypothesis after the linear look: start of its refinement, predicted misfit, its direction free of the plant's."""
-
-    hypothesis: Hypothesis
-    start: Floats
-    misfit: float
-    sideways: Floats
-    visible: float
-    alternatives: int
 
 
 Trial = tuple[Screened, Fitted, bool]
 
 
-def _screen(
-    problem: Problem, campaign: Campaign, origin: Point, nominal: Predictions, plant: Floats, none: Fitted
-) -> list[Screened]:
-    """Every effect's best alternative, most promising first."""
-    y = problem.whitened(nominal)
-    found = hypotheses(frequencies(problem, none.predictions))
-    columns = _effect_columns(problem, origin, nominal, y, found) | _instrument_columns(
-        problem, nominal, of_instruments(campaign.channels)
-    )
-    present = {key.split(".")[1] for key in origin.effects}
-    looks = [_look(problem, one, y, plant, by, columns) for one, by in columns.items() if one.effect not in present]
-    best: dict[str, Screened] = {}
-    for one in sorted(looks, key=lambda look: look.misfit):
-        best.setdefault(one.hypothesis.effect, one)
-    return list(best.values())
-
-
-def _effect_columns(
-    problem: Problem, origin: Point, nominal: Predictions, y: Floats, found: Sequence[Hypothesis]
-) -> dict[Hypothesis, Floats]:
-    """Derivatives (N, directions) of every hypothesis, all replays side by side."""
-    points = [point for one in found for point in unit_points(origin, one)]
-    moved = iter(problem.predictions(*points))
-    return {one: np.column_stack([problem.whitened(next(moved)) - y for _ in one.directions]) for one in found}
-
-
-def _instrument_columns(problem: Problem, nominal: Predictions, found: Sequence[Hypothesis]) -> dict[Hypothesis, Floats]:
-    return {one: by_effect(problem, one, Point(), [0.0], nominal) for one in found}
-
-
-def _look(problem: Problem, one: Hypothesis, y: Floats, plant: Floats, by: Floats, among: dict[Hypothesis, Floats]) -> Screened:
-    # Columns beyond the plant's belong to effects that are there already.
-    beside = [*NUISANCES, *(Direction("present", {}, 3.0) for _ in range(plant.shape[1] - len(NUISANCES)))]
-    solution = solve(problem.data - y, np.hstack([plant, by]), [*beside, *one.directions])
-    weights = np.vstack([plant, np.diag([1.0 / p.prior for p in beside])])
-    padded = np.vstack([by, np.zeros((len(beside), by.shape[1]))])
-    sideways = padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0]
-    visible = float(np.linalg.norm(sideways)) / max(float(np.linalg.norm(by)), 1e-300)
-    same = sum(other.effect == one.effect for other in among)
-    return Screened(one, solution.coefficients, solution.misfit, sideways[: len(by)], visible, same)
-
-
-def _refined(problem: Problem, origin: Point, screened: list[Screened], plant: Floats, none: Fitted, say: Say) -> list[Trial]:
+def _refined(problem: Problem, origin: Point, screened: list[Screened], none: Fitted, say: Say) -> list[Trial]:
     """Every effect fitted: the promising ones on the full model, the others as the linear look has them.
 
-    Promising is what the linear look gives at least a tenth of what its best gives.
+    Promising is what the linear look gives at least a tenth of what its best gives; a fit ends early once it cannot
+    come near the best.
     """
     worst = max(one.misfit for one in screened)
-    best_gain = worst - screened[0].misfit
-    found = []
+    least = max(0.1 * (worst - screened[0].misfit), 0.01 * len(problem.data))
+    found: list[Trial] = []
     for rank, one in enumerate(screened):
-        closer = rank < REFINED and worst - one.misfit > max(0.1 * best_gain, 0.01 * len(problem.data))
-        if closer:
+        share = one.misfit / worst
+        fitted = replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=none.misfit * share)
+        closer = False
+        if rank < REFINED and worst - one.misfit > least:
             say(f"{one.hypothesis.effect}, on the full model")
-            fitted = refine(problem, one.hypothesis, one.start, origin, plant)
-        else:
-            share = one.misfit / worst
-            fitted = replace(
-                none, hypothesis=one.hypothesis, coefficients=one.start, misfit=none.misfit * share, cost=none.cost * share
-            )
+            rival = RIVAL * min((fit.misfit for _, fit, refined in found if refined), default=float("inf"))
+            with suppress(SimulationError):
+                start = best_start(problem, one, origin, none)
+                fitted, closer = refine(problem, one.hypothesis, start, origin, rival), True
         found.append((one, fitted, closer))
     return found
+
+
+def best_start(problem: Problem, one: Screened, origin: Point, none: Fitted) -> Floats:
+    """The screened effect with the plant that suits it best: as the linear look has it, as the file has it, or refitted alone.
+
+    The linear look bends the plant for what a large effect does beyond its linear trace.
+    """
+    count = len(NUISANCES)
+    plants = (one.start[:count], np.zeros(count), none.coefficients[:count])
+    starts = [np.concatenate([plant, one.start[count:]]) for plant in plants]
+    tried = problem.attempts(*(point_of(one.hypothesis, list(start), origin) for start in starts))
+    missed = [float(np.sum((problem.data - problem.whitened(at)) ** 2)) if at else float("inf") for at in tried]
+    return starts[int(np.argmin(missed))]
 
 
 def score(misfit: float, count: int, price: float = 0.0) -> float:
@@ -203,8 +161,7 @@ def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fi
     excess = max(none.misfit / count - 1.0, 0.0)
     scores = {"adequate": score(none.misfit, count), "unknown": score(count * (1.0 + UNEXPLAINED * excess), count, 6.0)}
     for one, fitted, _ in found:
-        price = PRICE * (1 + len(one.hypothesis.directions)) + log(one.alternatives)
-        scores[one.hypothesis.effect] = score(fitted.misfit, count, price)
+        scores[one.hypothesis.effect] = score(fitted.misfit, count, one.price)
     top = max(scores.values())
     weights = {name: float(np.exp(value - top)) for name, value in scores.items()}
     probabilities = {name: weight / sum(weights.values()) for name, weight in weights.items()}

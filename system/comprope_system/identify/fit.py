@@ -1,19 +1,22 @@
 """Fits of one hypothesis: Gauss and Newton's method on plant and effect together, within bounds and priors."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from comprope.errors import SimulationError
+
 from .hypotheses import NUISANCES, Direction, Hypothesis
-from .linear import by_effect, by_plant, with_effect
+from .linear import directions_of, linearised, point_of
 from .point import Point, Predictions
-from .problem import Problem, Solution, solve
+from .problem import Problem, Solution, scale_of, solve
 
 Floats = NDArray[np.float64]
 ENOUGH = 2e-3  # of the number of data: a fall of the cost below this ends the iteration
-ROUNDS = 6
+ROUNDS = 7
 HALVINGS = 3
 
 
@@ -21,8 +24,9 @@ HALVINGS = 3
 class Fitted:
     """The best point of a hypothesis (None: nothing is missing), its predictions and how well they agree.
 
-    `cost` and `misfit` are squares in units of noise and discrepancy; `evidence` is the log of Laplace's.
-    `coefficients` are plant first, then the effect; `deviation` their standard deviations.
+    `misfit` is the sum of squares in units of noise and discrepancy, `penalty` that of coefficients over priors;
+    `coefficients` are plant first, then the effect; `deviation` their standard deviations; `by` (N, coefficients) are
+    the derivatives there.
     """
 
     hypothesis: Hypothesis | None
@@ -30,9 +34,13 @@ class Fitted:
     predictions: Predictions
     coefficients: Floats
     deviation: Floats
-    cost: float
+    by: Floats
     misfit: float
-    evidence: float
+    penalty: float
+
+    def cost(self, scale: float = 1.0) -> float:
+        """Misfit and priors in its scale."""
+        return self.misfit + scale * self.penalty
 
     @property
     def effect_coefficients(self) -> list[float]:
@@ -40,63 +48,57 @@ class Fitted:
         return [float(c) for c in self.coefficients[len(NUISANCES) :]]
 
 
-def directions_of(hypothesis: Hypothesis | None) -> list[Direction]:
-    """The directions of a fit: the plant's, then the effect's."""
-    return [*NUISANCES, *(hypothesis.directions if hypothesis else ())]
-
-
-def point_of(hypothesis: Hypothesis | None, coefficients: Sequence[float], base: Point) -> Point:
-    """The point of these coefficients, beside the effects that `base` has."""
-    names = [one.name for one in NUISANCES]
-    plant = replace(base, plant=dict(zip(names, map(float, coefficients[: len(names)]), strict=True)))
-    return with_effect(plant, hypothesis, [float(c) for c in coefficients[len(names) :]]) if hypothesis else plant
-
-
 def refine(
-    problem: Problem, hypothesis: Hypothesis | None, start: Floats, base: Point, plant: Floats, rounds: int = ROUNDS
+    problem: Problem,
+    hypothesis: Hypothesis | None,
+    start: Floats,
+    base: Point,
+    rival: float = float("inf"),
+    begun: tuple[Predictions, Floats] | None = None,
 ) -> Fitted:
-    """The best point near `start`; `plant` (N, nuisances) are derivatives that may have been taken elsewhere.
+    """The best point near `start`; `begun` are predictions and derivatives there, where they are known.
 
-    They are taken anew where they no longer lead downhill.
+    A fit that expects to end above `rival` is left where it is. Raises `SimulationError` if `start` cannot be simulated.
     """
     directions, x = directions_of(hypothesis), np.asarray(start, float)
-    best = _evaluate(problem, hypothesis, x, base, directions)
-    fresh = False
-    for _ in range(rounds):
-        matrix = np.hstack([plant, _effect_part(problem, hypothesis, best, base)])
-        solution = solve(problem.data - problem.whitened(best.predictions), matrix, directions, best.coefficients)
-        found = _downhill(problem, best, solution, base, directions)
-        gain = best.cost - found.cost
-        best = replace(found, evidence=solution.evidence + 0.5 * (solution.cost - found.cost), deviation=solution.deviation)
-        if gain < ENOUGH * len(problem.data):
-            if fresh or gain > 0.0:
-                break
-            plant, fresh = by_plant(problem, best.point, problem.whitened(best.predictions)), True
+    best, count = _evaluate(problem, hypothesis, x, base, directions, begun), len(problem.data)
+    for _ in range(ROUNDS):
+        # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
+        scale = scale_of(best.misfit, count)
+        solution = solve(problem.data - problem.whitened(best.predictions), best.by, directions, best.coefficients, scale)
+        best = replace(best, deviation=solution.deviation)
+        if best.cost(scale) - solution.cost < ENOUGH * scale * count or solution.misfit > rival:
+            break
+        found = _downhill(problem, best, solution, base, scale)
+        gain, best = best.cost(scale) - found.cost(scale), found
+        if gain < ENOUGH * scale * count:
+            break
     return best
 
 
-def _effect_part(problem: Problem, hypothesis: Hypothesis | None, at: Fitted, base: Point) -> Floats:
-    if hypothesis is None:
-        return np.zeros((len(problem.data), 0))
-    plant = replace(base, plant=at.point.plant)
-    return by_effect(problem, hypothesis, plant, at.effect_coefficients, at.predictions)
-
-
-def _evaluate(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point, directions: Sequence[Direction]) -> Fitted:
-    point = point_of(hypothesis, list(x), base)
-    (predictions,) = problem.predictions(point)
+def _evaluate(
+    problem: Problem,
+    hypothesis: Hypothesis | None,
+    x: Floats,
+    base: Point,
+    directions: Sequence[Direction],
+    known: tuple[Predictions, Floats] | None = None,
+) -> Fitted:
+    predictions, by = known or linearised(problem, hypothesis, x, base)
     residual = problem.data - problem.whitened(predictions)
     misfit = float(residual @ residual)
     penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, directions, strict=True)))
-    return Fitted(hypothesis, point, predictions, x, np.zeros(len(x)), misfit + penalty, misfit, -0.5 * (misfit + penalty))
+    point, none = point_of(hypothesis, list(x), base), np.zeros(len(x))
+    return Fitted(hypothesis, point, predictions, x, none, by, misfit, penalty)
 
 
-def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, directions: Sequence[Direction]) -> Fitted:
-    """The solution's point, or one nearer to the present where that one is worse than it."""
-    step = solution.coefficients - best.coefficients
+def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, scale: float) -> Fitted:
+    """The solution's point, or one nearer to the present where that one is worse than it or cannot be simulated."""
+    step, directions = solution.coefficients - best.coefficients, directions_of(best.hypothesis)
     for _ in range(HALVINGS):
-        found = _evaluate(problem, best.hypothesis, best.coefficients + step, base, directions)
-        if found.cost < best.cost:
-            return found
+        with suppress(SimulationError):
+            found = _evaluate(problem, best.hypothesis, best.coefficients + step, base, directions)
+            if found.cost(scale) < best.cost(scale):
+                return replace(found, deviation=solution.deviation)
         step = 0.3 * step
     return best

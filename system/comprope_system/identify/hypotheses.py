@@ -52,6 +52,7 @@ class Hypothesis:
 
     `polar` is (amplitude, phase) where the two directions are its cosine and sine; `base` is the value without
     the effect; `parts` are the hypotheses of several effects at once, whose directions stand one after the other.
+    `turned` are runs in which the phase is another: each has a direction more, its difference there.
     """
 
     effect: str
@@ -60,6 +61,7 @@ class Hypothesis:
     polar: tuple[str, str] | None = None
     base: float = 0.0
     parts: tuple["Hypothesis", ...] = ()
+    turned: tuple[str, ...] = ()
 
     def shares(self, coefficients: list[float]) -> list[tuple["Hypothesis", list[float]]]:
         """Each effect with its own coefficients."""
@@ -74,6 +76,20 @@ class Hypothesis:
         """Whether this is a fault of an instrument, not of the rope."""
         return self.effect in INSTRUMENT
 
+    @property
+    def faulty(self) -> list[bool]:
+        """Which directions are faults of instruments."""
+        return [part.is_instrument for part in self.parts or (self,) for _ in part.directions]
+
+    def shifts(self, coefficients: list[float]) -> dict[str, dict[str, float]]:
+        """What is added to values in single runs, by the run's file."""
+        found: dict[str, dict[str, float]] = {}
+        for part, own in self.shares(coefficients):
+            for file, shift in zip(part.turned, own[2:], strict=False):
+                assert part.polar is not None
+                found.setdefault(file, {})[part.polar[1]] = shift
+        return found
+
     def parameters(self, coefficients: list[float]) -> dict[str, float]:
         """Values of model keys for coefficients of the directions."""
         if self.parts:
@@ -84,7 +100,7 @@ class Hypothesis:
                 values[key] = values.get(key, self.base) + coefficient * amount
         if self.polar:
             size = self.directions[0].changes[self.polar[0]]
-            values = {self.polar[0]: size * hypot(*coefficients), self.polar[1]: atan2(coefficients[1], coefficients[0])}
+            values = {self.polar[0]: size * hypot(*coefficients[:2]), self.polar[1]: atan2(coefficients[1], coefficients[0])}
         return dict(self.fixed) | values
 
 

@@ -1,74 +1,117 @@
 """A model linearised about a point: predictions and their derivatives by the coefficients of directions."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import pi, remainder
 
 import numpy as np
 from numpy.typing import NDArray
 
+from comprope.rope.effects import RopeModel
+from comprope.rope.model import values_of
+from comprope.rope.modelfile import with_changes
+from comprope.rope.slots import DECLARED
+
+from .campaign import Channel, Run
 from .hypotheses import NUISANCES, Direction, Hypothesis
 from .point import Point, Predictions
 from .problem import Problem
+from .sensitivities import replay_with_sensitivities
 
 Floats = NDArray[np.float64]
-RELATIVE = 0.02  # of a plant parameter: the step of a difference
-ABSOLUTE = 0.01  # of a coefficient that is not relative
+Tangents = tuple[dict[str, Floats], dict[int, dict[str, Floats]]]
+STEP = 1e-4  # of a coefficient, by which it is read off what parameters it moves
 
 
-@dataclass(frozen=True)
-class Linear:
-    """Whitened predictions y (N,) at a point and their derivatives (N, k) by k coefficients."""
-
-    y: Floats
-    by: Floats
+def directions_of(hypothesis: Hypothesis | None) -> list[Direction]:
+    """The directions of a fit: the plant's, then the effect's."""
+    return [*NUISANCES, *(hypothesis.directions if hypothesis else ())]
 
 
-def by_plant(problem: Problem, point: Point, y: Floats, names: Sequence[Direction] = NUISANCES) -> Floats:
-    """Derivatives (N, nuisances) by the plant's coefficients at a point whose predictions are y."""
-    steps = [RELATIVE if one.relative else ABSOLUTE for one in names]
-    moved = [
-        replace(point, plant=dict(point.plant) | {one.name: point.plant.get(one.name, 0.0) + h})
-        for one, h in zip(names, steps, strict=True)
-    ]
-    found = problem.predictions(*moved)
-    return np.column_stack([(problem.whitened(one) - y) / h for one, h in zip(found, steps, strict=True)])
+def point_of(hypothesis: Hypothesis | None, coefficients: Sequence[float], base: Point) -> Point:
+    """The point of these coefficients, beside the effects that `base` has."""
+    names = [one.name for one in NUISANCES]
+    plant = replace(base, plant=dict(zip(names, map(float, coefficients[: len(names)]), strict=True)))
+    return with_effect(plant, hypothesis, [float(c) for c in coefficients[len(names) :]]) if hypothesis else plant
 
 
-def by_effect(problem: Problem, hypothesis: Hypothesis, plant: Point, coefficients: Sequence[float], at: Predictions) -> Floats:
-    """Derivatives (N, directions) by the coefficients of an effect, or of several; `at` are the predictions there.
+def with_effect(point: Point, hypothesis: Hypothesis, coefficients: Sequence[float]) -> Point:
+    """The point with an effect of these coefficients beside those it has."""
+    own = list(coefficients)
+    return replace(
+        point, effects=dict(point.effects) | hypothesis.parameters(own), shifts=_merged(point.shifts, hypothesis.shifts(own))
+    )
 
-    From zero the step is the whole typical value, since some effects have no derivative there.
+
+def _merged(
+    first: Mapping[str, Mapping[str, float]], second: Mapping[str, Mapping[str, float]]
+) -> dict[str, Mapping[str, float]]:
+    return {file: {**first.get(file, {}), **second.get(file, {})} for file in dict.fromkeys([*first, *second])}
+
+
+def linearised(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> tuple[Predictions, Floats]:
+    """Predictions at the coefficients x (k,), and their derivatives (N, k), from one replay of each run.
+
+    Raises `SimulationError` where the model cannot be simulated there.
     """
-    y, own = problem.whitened(at), list(coefficients)
-    steps = [_step(c, one) for c, one in zip(own, hypothesis.directions, strict=True)]
-    faults = [part.is_instrument for part, _ in hypothesis.shares(own) for _ in part.directions]
-    physical = [k for k, fault in enumerate(faults) if not fault]
-    moved = problem.predictions(*(with_effect(plant, hypothesis, _moved(own, k, steps[k])) for k in physical))
-    columns = {k: (problem.whitened(one) - y) / steps[k] for k, one in zip(physical, moved, strict=True)}
-    columns |= {k: _by_instrument(problem, hypothesis.directions[k], at) for k, fault in enumerate(faults) if fault}
-    return np.column_stack([columns[k] for k in range(len(own))])
+    here, directions = problem.held_back(point_of(hypothesis, list(x), base)), directions_of(hypothesis)
+    steps = [STEP if c + STEP <= one.upper else -STEP for c, one in zip(x, directions, strict=True)]
+    moved = [x + step * (np.arange(len(x)) == k) for k, step in enumerate(steps)]
+    there = [problem.held_back(point_of(hypothesis, list(one), base)) for one in moved]
+    campaign = problem.campaign
+    jobs = [
+        problem.executor.submit(tangents, campaign.model, run, campaign.channels, here, list(zip(there, steps, strict=True)))
+        for run in problem.runs
+    ]
+    found = dict(zip((run.file for run in problem.runs), (job.result() for job in jobs), strict=True))
+    at = {(file, column): values for file, (shown, _) in found.items() for column, values in shown.items()}
+    columns = [_column(problem, hypothesis, k, found, at) for k in range(len(directions))]
+    return at, np.column_stack(columns) if columns else np.zeros((len(problem.data), 0))
 
 
-def _moved(coefficients: list[float], place: int, step: float) -> list[float]:
-    """The coefficients with one of them moved."""
-    return [c + (step if k == place else 0.0) for k, c in enumerate(coefficients)]
+def _column(problem: Problem, hypothesis: Hypothesis | None, k: int, found: Mapping[str, Tangents], at: Predictions) -> Floats:
+    """Derivatives (N,) by coefficient k."""
+    if hypothesis and k >= len(NUISANCES) and hypothesis.faulty[k - len(NUISANCES)]:
+        return _by_instrument(problem, hypothesis.directions[k - len(NUISANCES)], at)
+    return problem.column({(file, column): values for file, (_, by) in found.items() for column, values in by.get(k, {}).items()})
 
 
-def _step(coefficient: float, direction: Direction) -> float:
-    """A tenth of a coefficient, or the whole typical value from zero; turned round at the upper bound."""
-    step = 1.0 if abs(coefficient) < 0.1 else 0.1 * coefficient
-    return step if direction.lower <= coefficient + step <= direction.upper else -step
+def tangents(
+    model: RopeModel, run: Run, channels: Mapping[str, Channel], here: Point, there: Sequence[tuple[Point, float]]
+) -> Tangents:
+    """Channels of a run at a point, and by k their derivatives towards there[k], a step away; none where nothing moves."""
+    changes = here.changes(model, run)
+    values = values_of(with_changes(model, changes, run.file))
+    directions = {}
+    for k, (point, step) in enumerate(there):
+        moved = values_of(with_changes(model, point.changes(model, run), run.file))
+        change = {key: _apart(key, value, values.get(key, DECLARED[key].neutral)) / step for key, value in moved.items()}
+        if amounts := {key: amount for key, amount in change.items() if amount}:
+            directions[str(k)] = amounts
+    shown, by = replay_with_sensitivities(model, replace(run, changes=changes), channels, directions)
+    return shown.values, {int(k): one for k, one in by.items()}
+
+
+def _apart(key: str, a: float, b: float) -> float:
+    """How far a is from b; a phase may have gone once round."""
+    return remainder(a - b, 2.0 * pi) if DECLARED[key].unit == "rad" else a - b
+
+
+def by_effect(problem: Problem, hypothesis: Hypothesis, origin: Point, at: Predictions) -> Floats:
+    """Derivatives (N, directions) by the coefficients of an effect that is not there yet; `at` are the predictions without it.
+
+    The step is the whole typical value, since some effects do little until they are of some size.
+    """
+    if hypothesis.is_instrument:
+        return np.column_stack([_by_instrument(problem, one, at) for one in hypothesis.directions])
+    y = problem.whitened(at)
+    return np.column_stack([problem.whitened(one) - y for one in problem.predictions(*unit_points(origin, hypothesis))])
 
 
 def unit_points(origin: Point, hypothesis: Hypothesis) -> list[Point]:
     """One point for each direction of an effect: its typical value, the others at zero."""
     count = len(hypothesis.directions)
     return [with_effect(origin, hypothesis, [float(j == k) for j in range(count)]) for k in range(count)]
-
-
-def with_effect(point: Point, hypothesis: Hypothesis, coefficients: Sequence[float]) -> Point:
-    """The point with an effect of these coefficients beside those it has."""
-    return replace(point, effects=dict(point.effects) | hypothesis.parameters(list(coefficients)))
 
 
 def _by_instrument(problem: Problem, direction: Direction, at: Predictions) -> Floats:

@@ -22,15 +22,21 @@ Predictions = dict[tuple[str, str], Floats]
 
 @dataclass(frozen=True)
 class Point:
-    """Nuisance coefficients by name (0: as the model file has it), and model keys that effects set."""
+    """Nuisance coefficients by name (0: as the model file has it), and model keys that effects set.
+
+    `shifts` are added to such keys in single runs, by the run's file.
+    """
 
     plant: Mapping[str, float] = field(default_factory=dict)
     effects: Mapping[str, float] = field(default_factory=dict)
+    shifts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def changes(self, model: RopeModel, run: Run) -> dict[str, Any]:
         """Everything that differs from the model file in a run at this point."""
         base = values_of(model) | {key: value for key, value in run.changes.items() if isinstance(value, (int, float))}
         changed: dict[str, Any] = dict(run.changes) | dict(self.effects)
+        for key, shift in self.shifts.get(run.file, {}).items():
+            changed[key] = changed.get(key, 0.0) + shift
         for one in NUISANCES:
             if coefficient := self.plant.get(one.name, 0.0):
                 value = base[one.name] * (1.0 + coefficient) if one.relative else base[one.name] + coefficient

@@ -1,12 +1,15 @@
 """The weighed misfit of a campaign: whitened data, predictions and directions, and bounded fits of coefficients."""
 
 from collections.abc import Mapping, Sequence
-from concurrent.futures import Executor
-from dataclasses import dataclass
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
+
+from comprope.errors import SimulationError
 
 from .campaign import Campaign, Run
 from .hypotheses import Direction
@@ -19,18 +22,43 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Problem:
-    """Some runs of a campaign, binned and weighed. `data` (N,) is whitened; its expected square is N."""
+    """Some runs of a campaign, binned and weighed. `data` (N,) is whitened; its expected square is N.
+
+    `held` are plant parameters that stay as runs state them.
+    """
 
     campaign: Campaign
     runs: tuple[Run, ...]
     parts: list[Part]
     data: Floats
     executor: Executor
+    held: frozenset[str] = frozenset()
+
+    def held_back(self, point: Point) -> Point:
+        """The point without the plant parameters that are held."""
+        return replace(point, plant={name: value for name, value in point.plant.items() if name not in self.held})
+
+    @cached_property
+    def rows_of_runs(self) -> NDArray[np.bool_]:
+        """Which data are of which run: (runs, N)."""
+        files = np.repeat([one.run for one in self.parts], [len(one.data) for one in self.parts])
+        return np.array([files == run.file for run in self.runs])
 
     def predictions(self, *points: Point) -> list[Predictions]:
         """The model's channels at some points, computed side by side."""
-        jobs = [submit(self.campaign, self.runs, point, self.executor) for point in points]
+        jobs = [submit(self.campaign, self.runs, self.held_back(point), self.executor) for point in points]
         return [gathered(self.runs, some) for some in jobs]
+
+    def attempts(self, *points: Point) -> list[Predictions | None]:
+        """As `predictions`; None for points that the model cannot simulate."""
+        jobs = [submit(self.campaign, self.runs, self.held_back(point), self.executor) for point in points]
+        return [self._attempted(some) for some in jobs]
+
+    def _attempted(self, jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions | None:
+        try:
+            return gathered(self.runs, jobs)
+        except SimulationError:
+            return None
 
     def whitened(self, predictions: Mapping[tuple[str, str], Floats]) -> Floats:
         """Predictions (N,) in the units of `data`."""
@@ -57,7 +85,7 @@ def pose(campaign: Campaign, runs: Sequence[Run], executor: Executor, nominal: P
 
 @dataclass(frozen=True)
 class Solution:
-    """Coefficients of directions, the cost (misfit and priors), misfit alone, and the log of the evidence.
+    """Coefficients of directions, the cost (misfit and priors in its scale), and misfit alone.
 
     `deviation` are the coefficients' standard deviations, with the discrepancy as if it were noise.
     """
@@ -65,24 +93,35 @@ class Solution:
     coefficients: Floats
     cost: float
     misfit: float
-    evidence: float
     deviation: Floats
 
 
-def solve(residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats | None = None) -> Solution:
+def solve(
+    residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats | None = None, scale: float = 1.0
+) -> Solution:
     """Most likely coefficients x of residual = matrix @ (x - start) within bounds, given their priors.
 
-    The evidence is Laplace's: likelihood at the best x times the share of the prior that the data leave.
+    `scale` is what the squares of the residual stand for: with a model that misses much more than noise, priors count the more.
     """
     start = np.zeros(len(directions)) if start is None else start
     prior = np.array([one.prior for one in directions])
-    rows = np.vstack([matrix, np.diag(1.0 / prior)])
+    rows = np.vstack([matrix, np.diag(scale**0.5 / prior)])
     target = np.concatenate([residual + matrix @ start, np.zeros(len(prior))])
     lower, upper = (np.array([getattr(one, side) for one in directions]) for side in ("lower", "upper"))
     found = lsq_linear(rows, target, (lower, upper)).x if len(prior) else prior
     left = residual - matrix @ (found - start)
     misfit, penalty = float(left @ left), float(((found / prior) ** 2).sum())
     curvature = np.eye(len(prior)) + prior[:, None] * (matrix.T @ matrix) * prior
-    evidence = -0.5 * (misfit + penalty + float(np.linalg.slogdet(curvature)[1]))
     deviation = prior * np.sqrt(np.diag(np.linalg.inv(curvature)))
-    return Solution(found, misfit + penalty, misfit, evidence, deviation)
+    return Solution(found, misfit + scale * penalty, misfit, deviation)
+
+
+def solve_in_scale(residual: Floats, matrix: Floats, directions: Sequence[Direction]) -> Solution:
+    """As `solve` from zero, in the scale of what is left even so."""
+    sharp = solve(residual, matrix, directions)
+    return solve(residual, matrix, directions, scale=scale_of(sharp.misfit, len(residual)))
+
+
+def scale_of(misfit: float, count: int) -> float:
+    """What the squares of a residual stand for: noise, or whatever is more."""
+    return max(1.0, misfit / max(count, 1))

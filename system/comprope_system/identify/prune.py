@@ -6,11 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .add import Ground, Say
-from .diagnose import PRICE, score
+from .diagnose import score
 from .fit import Fitted, refine
 from .hypotheses import NUISANCES
 from .point import Point
 from .present import grouped, joined
+from .screen import PRICE
 
 Floats = NDArray[np.float64]
 
@@ -45,7 +46,7 @@ def _without(ground: Ground, fitted: Fitted, name: str, say: Say) -> Without:
     kept = [pair for effect, pairs in groups.items() if effect != name for pair in pairs]
     left = joined([part for part, _ in kept])
     start = np.concatenate([fitted.coefficients[: len(NUISANCES)], [c for _, own in kept for c in own]])
-    found = refine(ground.problem, left, start, Point(), ground.plant)
+    found = refine(ground.problem, left, start, Point())
     return Without(name, found, _score(ground, found) >= _score(ground, fitted))
 
 

@@ -12,7 +12,7 @@ from .plain import plain
 from .point import Point
 from .present import name_of, short_names
 from .remarks import remarks
-from .values import Value, plant_results, scale_of, set_by_runs
+from .values import Value, plant_results, set_by_runs, widening
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ def nrmse_of_fit(judged: Judged, k: int) -> float:
 def plant(diagnosis: Diagnosis) -> dict[str, Value]:
     """The plant as refitted beside the verdict's effect, or alone."""
     fitted = diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.none
-    return plant_results(diagnosis.campaign, fitted, scale_of(fitted, len(diagnosis.problem.data)))
+    return plant_results(diagnosis.campaign, fitted, widening(fitted, len(diagnosis.problem.data)))
 
 
 def biases(diagnosis: Diagnosis) -> list[tuple[str, Value, float]]:

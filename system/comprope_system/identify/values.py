@@ -14,6 +14,7 @@ from comprope.rope.modelfile import with_changes
 from .campaign import Campaign
 from .fit import Fitted
 from .hypotheses import NUISANCES, Hypothesis
+from .problem import scale_of
 
 CONFIDENCE = 1.96  # standard deviations of a 95 % interval
 
@@ -42,9 +43,9 @@ class Value:
         return {"value": self.value, "deviation": self.deviation, "low": self.low, "high": self.high, "before": self.before}
 
 
-def scale_of(fitted: Fitted, count: int) -> float:
+def widening(fitted: Fitted, count: int) -> float:
     """By how much standard deviations are widened: a model that misses the data knows its parameters less well."""
-    return float(np.sqrt(max(1.0, fitted.misfit / max(count, 1))))
+    return float(np.sqrt(scale_of(fitted.misfit, count)))
 
 
 def effect_results(hypothesis: Hypothesis | None, coefficients: Sequence[float], deviations: Sequence[float]) -> dict[str, Value]:
@@ -61,7 +62,7 @@ def effect_results(hypothesis: Hypothesis | None, coefficients: Sequence[float],
 
 def _deviation(part: Hypothesis, own: Sequence[float], spread: Sequence[float], key: str) -> float:
     if part.polar and key in part.polar:
-        (c, s), (dc, ds), size = own, spread, part.directions[0].changes[part.polar[0]]
+        (c, s), (dc, ds), size = own[:2], spread[:2], part.directions[0].changes[part.polar[0]]
         length = max(hypot(c, s), 1e-300)
         along, across = hypot(c * dc, s * ds) / length, hypot(s * dc, c * ds) / length
         return size * along if key == part.polar[0] else across / length
