@@ -177,6 +177,7 @@ def heading(one: Added) -> str:
     replaced = set_by_runs(campaign)
     effects = {key: value for key, value in one.effects.items() if value.deviation > 0.0}
     plant = {key: value for key, value in one.plant.items() if key not in replaced}
+    shifts = one.fitted.point.shifts
     lines = [
         f'{campaign.model_path.name} with {one.effect}, fitted to the campaign "{campaign.name}" ({files}).',
         f"Error on these runs {_percent(one.before.fit_nrmse)} before, {_percent(one.after.fit_nrmse)} after;",
@@ -184,7 +185,7 @@ def heading(one: Added) -> str:
         "Fitted values with one standard deviation:",
         *(f"  {key} = {value.told()}" for key, value in effects.items()),
         *(f"  {key} = {value.told()} (was {value.before:.4g})" for key, value in plant.items()),
-        *(f"In {file} {key} was {shift:+.3g} from that." for file, own in one.fitted.point.shifts.items() for key, shift in own.items()),
+        *(f"  {key} in {file}: {shift:+.3g} from that" for file, own in shifts.items() for key, shift in own.items()),
     ]
     return "\n".join(lines)
 

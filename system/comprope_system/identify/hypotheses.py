@@ -10,7 +10,7 @@ from itertools import product
 from math import atan2, hypot, pi
 
 from comprope.declare import Quantity, quantities
-from comprope.rope.effects import INSTRUMENT, REGISTRY, Effect
+from comprope.rope.effects import INSTRUMENT, REGISTRY, Effect, RopeModel, names_of
 
 from .campaign import Channel
 
@@ -104,9 +104,9 @@ class Hypothesis:
         return dict(self.fixed) | values
 
 
-def hypotheses(frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
-    """All hypotheses about the registered effects; `frequencies` [Hz] are tried where an effect has one."""
-    return [one for effect in REGISTRY.values() for one in of_effect(effect, frequencies)]
+def hypotheses(model: RopeModel, frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
+    """All hypotheses about effects that the model may have; `frequencies` [Hz] are tried where an effect has one."""
+    return [one for name in names_of(model) for one in of_effect(REGISTRY[name], frequencies)]
 
 
 def of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypothesis]:

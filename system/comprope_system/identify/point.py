@@ -14,7 +14,7 @@ from comprope.rope.slots import DECLARED
 
 from .campaign import Campaign, Channel, Run
 from .hypotheses import NUISANCES
-from .replay import replay
+from .replay import STEP, replay
 
 Floats = NDArray[np.float64]
 Predictions = dict[tuple[str, str], Floats]
@@ -45,17 +45,18 @@ class Point:
         return changed
 
 
-def submit(campaign: Campaign, runs: Sequence[Run], point: Point, executor: Executor) -> list[Future[dict[str, Floats]]]:
-    """Start the replays of some runs at a point."""
-    return [
-        executor.submit(predict, campaign.model, replace(run, changes=point.changes(campaign.model, run)), campaign.channels)
-        for run in runs
-    ]
+def submit(
+    campaign: Campaign, runs: Sequence[Run], point: Point, executor: Executor, coarse: float = 1.0
+) -> list[Future[dict[str, Floats]]]:
+    """Start the replays of some runs at a point, with elements and steps `coarse` times as long."""
+    moved = [replace(run, changes=point.changes(campaign.model, run)) for run in runs]
+    return [executor.submit(predict, campaign.model, run, campaign.channels, coarse) for run in moved]
 
 
-def predict(model: RopeModel, run: Run, channels: Mapping[str, Channel]) -> dict[str, Floats]:
+def predict(model: RopeModel, run: Run, channels: Mapping[str, Channel], coarse: float = 1.0) -> dict[str, Floats]:
     """Channels of one run as the model has them."""
-    return replay(model, run, channels).values
+    length = {"rope.element_length": coarse * model.rope.element_length} if coarse != 1.0 else {}
+    return replay(model, replace(run, changes=run.changes | length), channels, coarse * STEP).values
 
 
 def gathered(runs: Sequence[Run], jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions:

@@ -49,9 +49,9 @@ class Problem:
         jobs = [submit(self.campaign, self.runs, self.held_back(point), self.executor) for point in points]
         return [gathered(self.runs, some) for some in jobs]
 
-    def attempts(self, *points: Point) -> list[Predictions | None]:
-        """As `predictions`; None for points that the model cannot simulate."""
-        jobs = [submit(self.campaign, self.runs, self.held_back(point), self.executor) for point in points]
+    def attempts(self, *points: Point, coarse: float = 1.0) -> list[Predictions | None]:
+        """As `predictions`, with elements and steps `coarse` times as long; None for points that cannot be simulated."""
+        jobs = [submit(self.campaign, self.runs, self.held_back(point), self.executor, coarse) for point in points]
         return [self._attempted(some) for some in jobs]
 
     def _attempted(self, jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions | None:

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 BIN = 0.05  # s
 MOST_BINS = 500
 MEMORY = 0.5  # s, correlation time of the discrepancy
-SHARE = 0.004  # of a channel's rms variation: its discrepancy's standard deviation
+SHARE = 0.002  # of a channel's rms variation: its discrepancy's standard deviation
 LEAST = 0.15  # of a channel's noise: the same, at least
 OUTLIER = 6.0  # standard deviations from the running median
 

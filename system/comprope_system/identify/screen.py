@@ -18,6 +18,7 @@ from .turning import solve_turned
 Floats = NDArray[np.float64]
 LOOKS = 40.0  # independent looks that a campaign is worth
 PRICE = 1.5  # of the score, for each parameter of an effect
+COARSEST = 0.3  # of the sheave's radius: elements of a first look
 TURN = 1.0  # the same, for each run's own phase
 
 
@@ -53,8 +54,8 @@ def screen(problem: Problem, origin: Point, nominal: Predictions, beside: Floats
     `nominal` are the predictions at `origin`, `beside` (N, k) the derivatives there by the plant and by effects it has.
     """
     present = {key.split(".")[1] for key in origin.effects}
-    tried = [one for one in hypotheses(frequencies(problem, none.predictions)) if one.effect not in present]
-    columns = dict(_effect_columns(problem, origin, nominal, tried))
+    tried = [one for one in hypotheses(problem.campaign.model, frequencies(problem, none.predictions)) if one.effect not in present]
+    columns = dict(_effect_columns(problem, origin, tried))
     faults = of_instruments(problem.campaign.channels)
     columns |= {one: by_effect(problem, one, origin, nominal) for one in faults if one.effect not in present}
     residual = problem.data - problem.whitened(nominal)
@@ -65,16 +66,24 @@ def screen(problem: Problem, origin: Point, nominal: Predictions, beside: Floats
     return list(best.values())
 
 
-def _effect_columns(
-    problem: Problem, origin: Point, nominal: Predictions, tried: Sequence[Hypothesis]
-) -> Iterator[tuple[Hypothesis, Floats]]:
-    """Derivatives (N, directions) of every hypothesis that can be simulated, all replays side by side."""
-    y = problem.whitened(nominal)
-    moved = iter(problem.attempts(*(point for one in tried for point in unit_points(origin, one))))
+def _effect_columns(problem: Problem, origin: Point, tried: Sequence[Hypothesis]) -> Iterator[tuple[Hypothesis, Floats]]:
+    """Derivatives (N, directions) of every hypothesis that can be simulated, all replays side by side.
+
+    What an effect changes is seen on a coarse mesh as well.
+    """
+    points = [origin, *(point for one in tried for point in unit_points(origin, one))]
+    moved = iter(problem.attempts(*points, coarse=coarseness(problem)))
+    before = next(moved)
     for one in tried:
         found = [next(moved) for _ in one.directions]
-        if all(at is not None for at in found):
-            yield one, np.column_stack([problem.whitened(at) - y for at in found if at is not None])
+        if before is not None and all(at is not None for at in found):
+            yield one, np.column_stack([problem.whitened(at) - problem.whitened(before) for at in found if at is not None])
+
+
+def coarseness(problem: Problem) -> float:
+    """How much longer elements may be for a first look: twice, where that still bends round the sheave."""
+    model = problem.campaign.model
+    return 2.0 if 2.0 * model.rope.element_length <= COARSEST * model.sheave.radius else 1.0
 
 
 def looks_at(
