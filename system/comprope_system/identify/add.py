@@ -13,7 +13,7 @@ from comprope.rope.effects import RopeModel
 from .campaign import Campaign
 from .compare import Comparison, compare
 from .fit import Fitted, refine
-from .hypotheses import NUISANCES, Hypothesis
+from .hypotheses import CLOCK, NUISANCES, Hypothesis
 from .linear import by_effect, linearised, point_of
 from .plain import plain
 from .point import Point, Predictions, gathered, submit
@@ -165,9 +165,14 @@ def added(ground: Ground, effect: str, fitted: Fitted, executor: Executor, was_t
         effect_results(fitted.hypothesis, fitted.effect_coefficients, list(deviations)),
         plant_results(campaign, fitted, scale),
         compare(campaign, executor),
-        compare(replace(campaign, model=model_of(campaign, ground.fitted)), executor),
-        compare(replace(campaign, model=model), executor, Point(shifts=fitted.point.shifts)),
+        compare(replace(campaign, model=model_of(campaign, ground.fitted)), executor, beside_the_model(ground.fitted)),
+        compare(replace(campaign, model=model), executor, beside_the_model(fitted)),
     )  # fmt: skip
+
+
+def beside_the_model(fitted: Fitted) -> Point:
+    """What a fit found that belongs to the campaign, not to the model: clocks, and phases of single runs."""
+    return Point({CLOCK: fitted.point.plant[CLOCK]}, shifts=fitted.point.shifts)
 
 
 def heading(one: Added) -> str:

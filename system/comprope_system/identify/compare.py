@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .campaign import Campaign, Channel, Run
-from .errors_of import channel_error, nrmse, overall
+from .errors_of import nrmse, overall, trusted
 from .measures import BANDS, LEAST, ORDERS, SpragueGeers, by_band, by_bins, by_order, rms, sprague_geers
 from .phases import phases
 from .plain import plain
 from .point import Point, Predictions, gathered, submit
 from .replay import referred
-from .samples import outliers, sample_noise
+from .samples import sample_noise
 
 Floats = NDArray[np.float64]
 PLACES = 10  # bins of the car's position over the shaft's height
@@ -153,17 +153,17 @@ def sheave_angle(campaign: Campaign, run: Run) -> Floats:
 
 
 def _channel(run: Run, channel: Channel, measured: Floats, predicted: Floats, angle: Floats, height: float) -> ChannelComparison:
-    both = np.isfinite(measured) & np.isfinite(predicted)
-    t, m, p = run.time[both], measured[both], predicted[both]
     noise = sample_noise(run, channel, measured)
+    both = trusted(measured, predicted, noise)
+    t, m, p = run.time[both], measured[both], predicted[both]
     if both.sum() < LEAST:
         return _nothing(channel, t, m, p, noise)
     residual, variation = m - p, max(float(np.std(m)), 1e-12)
     moving = np.abs(run.trip.velocity(t)) > 0.0
     return ChannelComparison(
         column=channel.column, channel=channel, time=t, measured=m, predicted=p,
-        nrmse=channel_error(m, p), rmse=rms(residual), noise=noise,
-        chi_square=float(np.mean((residual[~outliers(m, noise)] / noise) ** 2)),
+        nrmse=rms(residual) / variation, rmse=rms(residual), noise=noise,
+        chi_square=float(np.mean((residual / noise) ** 2)),
         sprague_geers=sprague_geers(m, p),
         by_phase=_scaled({name: rms(residual[mask]) for name, mask in phases(run.trip, t).items()}, variation),
         by_place=by_bins(run.trip.position(t), residual, np.linspace(0.0, height, PLACES + 1)) / variation,

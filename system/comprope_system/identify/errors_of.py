@@ -8,13 +8,21 @@ from numpy.typing import NDArray
 from .campaign import Campaign, Run
 from .point import Predictions
 from .replay import referred
+from .samples import outliers, sample_noise
 
 Floats = NDArray[np.float64]
 
 
-def channel_error(measured: Floats, predicted: Floats) -> float:
-    """Root-mean-square error over the root-mean-square variation of the measured values, where both exist."""
+def trusted(measured: Floats, predicted: Floats, noise: float) -> NDArray[np.bool_]:
+    """Which samples (n,) exist in both and are measured near their neighbours; `noise` [SI] is one sample's."""
     both = np.isfinite(measured) & np.isfinite(predicted)
+    both[both] = ~outliers(measured[both], noise) if both.any() else False
+    return both
+
+
+def channel_error(measured: Floats, predicted: Floats, noise: float) -> float:
+    """Root-mean-square error over the root-mean-square variation of the measured values, of samples that are `trusted`."""
+    both = trusted(measured, predicted, noise)
     if both.sum() < 2:
         return float("nan")
     variation = float(np.std(measured[both]))
@@ -32,5 +40,7 @@ def nrmse(campaign: Campaign, runs: Sequence[Run], predictions: Predictions) -> 
     found = []
     for run in runs:
         measured = referred(run.values, run, campaign.channels)
-        found += [channel_error(measured[column], predictions[run.file, column]) for column in campaign.channels]
+        for column, channel in campaign.channels.items():
+            noise = sample_noise(run, channel, measured[column])
+            found.append(channel_error(measured[column], predictions[run.file, column], noise))
     return overall(found)

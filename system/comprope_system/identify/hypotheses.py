@@ -31,6 +31,8 @@ def _plant(key: str, prior: float) -> Direction:
     return Direction(key, {key: 1.0}, prior, -0.9, 3.0, relative=True)
 
 
+CLOCK = "clock.offset"
+
 # How well a plant's data sheet is usually known: relative standard deviations.
 NUISANCES = (
     _plant("rope.bending_stiffness", 0.15),
@@ -43,6 +45,8 @@ NUISANCES = (
     _plant("sheave.inertia", 0.02),
     _plant("shaft.pit", 0.004),
     Direction("rope.external_damping", {"rope.external_damping": 1.0}, 0.01, 0.0, 1.0),
+    # How late all channels are against the car's position [s]: drive log and sensors may have clocks of their own.
+    Direction(CLOCK, {}, 0.02, -0.5, 0.5),
 )
 
 

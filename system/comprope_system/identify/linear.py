@@ -13,7 +13,7 @@ from comprope.rope.modelfile import with_changes
 from comprope.rope.slots import DECLARED
 
 from .campaign import Channel, Run
-from .hypotheses import NUISANCES, Direction, Hypothesis
+from .hypotheses import CLOCK, NUISANCES, Direction, Hypothesis
 from .point import Point, Predictions
 from .problem import Problem
 from .sensitivities import replay_with_sensitivities
@@ -71,6 +71,9 @@ def linearised(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base:
 
 def _column(problem: Problem, hypothesis: Hypothesis | None, k: int, found: Mapping[str, Tangents], at: Predictions) -> Floats:
     """Derivatives (N,) by coefficient k."""
+    if k < len(NUISANCES) and NUISANCES[k].name == CLOCK:
+        runs = {run.file: run for run in problem.runs}
+        return problem.column({place: _by_delay(runs[place[0]], value) for place, value in at.items()})
     if hypothesis and k >= len(NUISANCES) and hypothesis.faulty[k - len(NUISANCES)]:
         return _by_instrument(problem, hypothesis.directions[k - len(NUISANCES)], at)
     return problem.column({(file, column): values for file, (_, by) in found.items() for column, values in by.get(k, {}).items()})
@@ -122,5 +125,10 @@ def _by_instrument(problem: Problem, direction: Direction, at: Predictions) -> F
     for run in problem.runs:
         value = at[run.file, column]
         slope = {"sensor_gain": value, "sensor_offset": np.ones_like(value)}.get(effect)
-        moved[run.file, column] = size * (-np.gradient(value, run.time) if slope is None else slope)
+        moved[run.file, column] = size * (_by_delay(run, value) if slope is None else slope)
     return problem.column(moved)
+
+
+def _by_delay(run: Run, value: Floats) -> Floats:
+    """Derivative of a channel by how late it is."""
+    return np.asarray(-np.gradient(value, run.time))

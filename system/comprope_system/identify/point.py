@@ -13,7 +13,7 @@ from comprope.rope.model import values_of
 from comprope.rope.slots import DECLARED
 
 from .campaign import Campaign, Channel, Run
-from .hypotheses import NUISANCES
+from .hypotheses import CLOCK, NUISANCES
 from .replay import STEP, replay
 
 Floats = NDArray[np.float64]
@@ -37,8 +37,11 @@ class Point:
         changed: dict[str, Any] = dict(run.changes) | dict(self.effects)
         for key, shift in self.shifts.get(run.file, {}).items():
             changed[key] = changed.get(key, 0.0) + shift
+        if late := self.plant.get(CLOCK, 0.0):
+            known = model.effects.sensor_delay or {}
+            changed |= {f"effects.sensor_delay.{column}": known.get(column, 0.0) + late for column in run.values}
         for one in NUISANCES:
-            if coefficient := self.plant.get(one.name, 0.0):
+            if (coefficient := self.plant.get(one.name, 0.0)) and one.changes:
                 value = base[one.name] * (1.0 + coefficient) if one.relative else base[one.name] + coefficient
                 # A fit may lean on a parameter that it cannot see; it must not leave what a model accepts.
                 changed[one.name] = min(max(value, DECLARED[one.name].minimum), DECLARED[one.name].maximum)

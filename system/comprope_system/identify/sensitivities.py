@@ -50,7 +50,7 @@ def replay_with_sensitivities(
 
 def _through(model: RopeModel, column: str, run: Run, derivative: Floats) -> Floats:
     """What a channel's instrument makes of a derivative: all but its offset."""
-    return instrument(model, column, run.time, derivative) - instrument(model, column, run.time, np.zeros(1))[0]
+    return instrument(model, column, run.time, derivative) - instrument(model, column, run.time, np.zeros_like(derivative))
 
 
 def _drive(

@@ -13,7 +13,7 @@ from comprope.rope.modelfile import with_changes
 
 from .campaign import Campaign
 from .fit import Fitted
-from .hypotheses import NUISANCES, Hypothesis
+from .hypotheses import CLOCK, NUISANCES, Hypothesis
 from .problem import scale_of
 
 CONFIDENCE = 1.96  # standard deviations of a 95 % interval
@@ -90,13 +90,13 @@ def _declared(key: str) -> Quantity | None:
 
 def plant_results(campaign: Campaign, fitted: Fitted, scale: float = 1.0) -> dict[str, Value]:
     """The refitted plant by model key; values of the model file, which a run may replace."""
-    base, found = values_of(campaign.model), {}
+    base, found = values_of(campaign.model) | {CLOCK: 0.0}, {}
     for k, one in enumerate(NUISANCES):
-        size = base[one.name] if one.relative else 1.0
-        value = max(base[one.name] + size * float(fitted.coefficients[k]), 0.0)
+        size, least = (base[one.name] if one.relative else 1.0), (-float("inf") if one.name == CLOCK else 0.0)
+        value = max(base[one.name] + size * float(fitted.coefficients[k]), least)
         deviation = abs(size) * scale * float(fitted.deviation[k])
         reach = CONFIDENCE * deviation
-        found[one.name] = Value(value, deviation, max(value - reach, 0.0), value + reach, base[one.name])
+        found[one.name] = Value(value, deviation, max(value - reach, least), value + reach, base[one.name])
     return found
 
 
@@ -106,7 +106,7 @@ def set_by_runs(campaign: Campaign) -> set[str]:
 
 
 def model_of(campaign: Campaign, fitted: Fitted) -> RopeModel:
-    """The model with the fitted plant and effects; what runs replace stays as the file has it."""
-    replaced = set_by_runs(campaign)
+    """The model with the fitted plant and effects; what runs replace stays as the file has it, and clocks are no model's."""
+    replaced = set_by_runs(campaign) | {CLOCK}
     plant = {key: one.value for key, one in plant_results(campaign, fitted).items() if key not in replaced}
     return with_changes(campaign.model, plant | dict(fitted.point.effects), "fit")

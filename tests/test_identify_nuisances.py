@@ -1,0 +1,70 @@
+"""What every campaign has that is no effect: clocks that disagree, a sheave that stands anyhow at the start, bad samples."""
+
+import numpy as np
+import pytest
+
+from comprope_system.identify.add import prepare
+from comprope_system.identify.campaign import load_campaign
+from comprope_system.identify.compare import compare
+from comprope_system.identify.diagnose import diagnose
+from comprope_system.identify.errors_of import channel_error
+from comprope_system.identify.hypotheses import CLOCK, NUISANCES
+from comprope_system.identify.jobs import threads
+
+from . import virtual_lift
+
+LATE = 0.04  # s
+RUNOUT = "effects.sheave_eccentricity.eccentricity"
+PHASE = "effects.sheave_eccentricity.phase"
+PHASES = {"up.csv": 0.7, "down_light.csv": 2.4, "up_short.csv": -1.0}
+
+
+@pytest.fixture(scope="module")
+def executor():
+    with threads() as ready:
+        yield ready
+
+
+def test_a_late_clock_is_found_and_is_no_effect(tmp_path, executor):
+    """All channels come 40 ms late, which shifts the sheave's speed by several times its noise wherever the car accelerates."""
+    folder = virtual_lift.campaign(tmp_path / "late", {})
+    for file, *_ in virtual_lift.RUNS:
+        lines = (folder / file).read_text().splitlines()
+        table = np.genfromtxt(lines, delimiter=",", names=True)
+        for name in virtual_lift.CHANNELS:
+            table[name] = np.interp(table["time"] - LATE, table["time"], table[name])
+        np.savetxt(folder / file, np.column_stack([table[name] for name in table.dtype.names]), delimiter=",", header=lines[0],
+                   comments="", fmt="%.5f")  # fmt: skip
+    found = prepare(load_campaign(folder), executor).fitted
+    late = found.coefficients[[one.name for one in NUISANCES].index(CLOCK)]
+    # A record of 9 s knows the instant to about a millisecond.
+    assert abs(late - LATE) < 0.003
+    assert found.misfit < 1.2 * len(found.by)
+
+
+def test_each_run_may_begin_with_another_angle_of_the_sheave(tmp_path, executor):
+    folder, random = virtual_lift.campaign(tmp_path / "turned", {}), np.random.default_rng(3)
+    for file, _, start, distance, changes in virtual_lift.RUNS:
+        hidden = {RUNOUT: 2e-3, PHASE: PHASES[file]}
+        virtual_lift.measure(file, start, distance, changes, hidden, random).to_csv(folder / file, index=False, float_format="%.5f")
+    found = diagnose(load_campaign(folder), executor)
+    assert found.verdict == "sheave_eccentricity"
+    best = found.ranking[0].fitted
+    assert best.misfit < 1.3 * len(found.problem.data)
+    assert abs(best.point.effects[RUNOUT] - 2e-3) < 5e-5
+    told = {file: best.point.effects[PHASE] + own[PHASE] for file, own in best.point.shifts.items()}
+    assert set(told) == {"up.csv", "down_light.csv"}  # the run held out is not fitted
+    assert all(abs(np.angle(np.exp(1j * (angle - PHASES[file])))) < 0.05 for file, angle in told.items())
+
+
+def test_samples_far_from_their_neighbours_are_no_error_of_the_model(tmp_path, executor):
+    campaign = load_campaign(virtual_lift.campaign(tmp_path / "spiked", {}))
+    clean = compare(campaign, executor)
+    campaign.runs[0].values["cw_low"][[50, 200, 301]] += 0.05
+    assert compare(campaign, executor).nrmse == pytest.approx(clean.nrmse, rel=0.02)
+
+
+def test_an_error_is_that_of_the_samples_both_have():
+    measured, predicted = np.sin(np.linspace(0.0, 9.0, 200)), np.sin(np.linspace(0.0, 9.0, 200)) + 0.1
+    measured[20:30], predicted[100] = np.nan, np.nan
+    assert channel_error(measured, predicted, 0.01) == pytest.approx(0.1 / np.nanstd(np.delete(measured, 100)), rel=1e-9)
