@@ -21,10 +21,11 @@ from .campaign import Campaign
 from .errors_of import nrmse
 from .fit import Fitted, refine
 from .hypotheses import NUISANCES, Hypothesis, together
-from .linear import linearised, point_of
+from .linear import linearised
 from .point import Point, Predictions, gathered, submit
 from .problem import Problem, pose
 from .screen import LOOKS, Screened, screen
+from .starts import best_start
 
 Floats = NDArray[np.float64]
 Say = Callable[[str], None]
@@ -132,23 +133,10 @@ def _refined(problem: Problem, origin: Point, screened: list[Screened], none: Fi
             say(f"{one.hypothesis.effect}, on the full model")
             rival = RIVAL * min((fit.misfit for _, fit, refined in found if refined), default=float("inf"))
             with suppress(SimulationError):
-                start = best_start(problem, one, origin, none)
+                start = best_start(problem, one.hypothesis, one.start, origin, none)
                 fitted, closer = refine(problem, one.hypothesis, start, origin, rival), True
         found.append((one, fitted, closer))
     return found
-
-
-def best_start(problem: Problem, one: Screened, origin: Point, none: Fitted) -> Floats:
-    """The screened effect with the plant that suits it best: as the linear look has it, as the file has it, or refitted alone.
-
-    The linear look bends the plant for what a large effect does beyond its linear trace.
-    """
-    count = len(NUISANCES)
-    plants = (one.start[:count], np.zeros(count), none.coefficients[:count])
-    starts = [np.concatenate([plant, one.start[count:]]) for plant in plants]
-    tried = problem.attempts(*(point_of(one.hypothesis, list(start), origin) for start in starts))
-    missed = [float(np.sum((problem.data - problem.whitened(at)) ** 2)) if at else float("inf") for at in tried]
-    return starts[int(np.argmin(missed))]
 
 
 def score(misfit: float, count: int, price: float = 0.0) -> float:

@@ -17,6 +17,7 @@ from .problem import Problem, Solution, scale_of, solve
 Floats = NDArray[np.float64]
 ENOUGH = 2e-3  # of the number of data: a fall of the cost below this ends the iteration
 ROUNDS = 7
+TRUSTED = 3  # rounds after which what a fit expects is believed: friction answers to its size by far other than a line
 HALVINGS = 3
 
 
@@ -62,12 +63,12 @@ def refine(
     """
     directions, x = directions_of(hypothesis), np.asarray(start, float)
     best, count = _evaluate(problem, hypothesis, x, base, directions, begun), len(problem.data)
-    for _ in range(ROUNDS):
+    for done in range(ROUNDS):
         # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
         scale = scale_of(best.misfit, count)
         solution = solve(problem.data - problem.whitened(best.predictions), best.by, directions, best.coefficients, scale)
         best = replace(best, deviation=solution.deviation)
-        if best.cost(scale) - solution.cost < ENOUGH * scale * count or solution.misfit > rival:
+        if best.cost(scale) - solution.cost < ENOUGH * scale * count or (done >= TRUSTED and solution.misfit > rival):
             break
         found = _downhill(problem, best, solution, base, scale)
         gain, best = best.cost(scale) - found.cost(scale), found

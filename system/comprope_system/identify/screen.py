@@ -54,7 +54,8 @@ def screen(problem: Problem, origin: Point, nominal: Predictions, beside: Floats
     `nominal` are the predictions at `origin`, `beside` (N, k) the derivatives there by the plant and by effects it has.
     """
     present = {key.split(".")[1] for key in origin.effects}
-    tried = [one for one in hypotheses(problem.campaign.model, frequencies(problem, none.predictions)) if one.effect not in present]
+    known = hypotheses(problem.campaign.model, frequencies(problem, none.predictions))
+    tried = [one for one in known if one.effect not in present]
     columns = dict(_effect_columns(problem, origin, tried))
     faults = of_instruments(problem.campaign.channels)
     columns |= {one: by_effect(problem, one, origin, nominal) for one in faults if one.effect not in present}
