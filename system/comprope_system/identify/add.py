@@ -13,14 +13,15 @@ from comprope.rope.effects import RopeModel
 from .campaign import Campaign
 from .compare import Comparison, compare
 from .fit import Fitted, refine
-from .hypotheses import CLOCK, NUISANCES, Hypothesis
+from .hypotheses import CLOCK, NUISANCES, Hypothesis, together
 from .linear import by_effect, linearised, point_of
 from .plain import plain
 from .point import Point, Predictions, gathered, submit
-from .present import alternatives, grouped, joined, name_of, present, shape_of, short_names
+from .present import alternatives, grouped, name_of, present, shape_of, short_names
 from .problem import Problem, pose
 from .screen import looks_at
 from .spectrum import frequencies
+from .starts import best_start
 from .values import Value, effect_results, model_of, plant_results, set_by_runs, widening
 
 Floats = NDArray[np.float64]
@@ -141,7 +142,9 @@ def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fi
     begin = start if len(start) > count else np.concatenate([start, known.coefficients[len(NUISANCES) :]])
     begin = np.array(begin)
     begin[[k for k, one in enumerate(NUISANCES) if one.name in ground.problem.held]] = 0.0
-    fitted = refine(ground.problem, joined([new, *old]), begin, Point())
+    whole = together(new, *old)
+    begin = best_start(ground.problem, whole, begin, Point(), ground.fitted, len(new.directions))
+    fitted = refine(ground.problem, whole, begin, Point())
     return _shaped(ground, new, old, fitted)
 
 
@@ -151,7 +154,7 @@ def _shaped(ground: Ground, new: Hypothesis, old: list[Hypothesis], fitted: Fitt
     if not shapes:
         return fitted
     begin = np.concatenate([fitted.coefficients, np.zeros(len(shapes))])
-    freed = refine(ground.problem, joined([new, *old, *shapes]), begin, Point())
+    freed = refine(ground.problem, together(new, *old, *shapes), begin, Point())
     return freed if freed.cost() < fitted.cost() else fitted
 
 

@@ -17,7 +17,10 @@ from .campaign import Channel
 
 @dataclass(frozen=True, eq=False)
 class Direction:
-    """One coefficient: `changes` of the model when it is 1, its prior standard deviation and bounds."""
+    """One coefficient: `changes` of the model when it is 1, its prior standard deviation and bounds.
+
+    A `relative` one is the logarithm of a factor.
+    """
 
     name: str
     changes: Mapping[str, float]
@@ -28,7 +31,7 @@ class Direction:
 
 
 def _plant(key: str, prior: float) -> Direction:
-    return Direction(key, {key: 1.0}, prior, -0.9, 3.0, relative=True)
+    return Direction(key, {key: 1.0}, prior, -2.3, 1.4, relative=True)
 
 
 CLOCK = "clock.offset"
@@ -129,9 +132,11 @@ def of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypo
     return found
 
 
-def together(first: Hypothesis, second: Hypothesis) -> Hypothesis:
-    """Both effects at once."""
-    parts = (*(first.parts or (first,)), *(second.parts or (second,)))
+def together(*effects: Hypothesis) -> Hypothesis:
+    """All these effects at once."""
+    parts = tuple(part for one in effects for part in one.parts or (one,))
+    if len(parts) == 1:
+        return parts[0]
     directions = tuple(direction for part in parts for direction in part.directions)
     return Hypothesis(" + ".join(part.effect for part in parts), directions, parts=parts)
 

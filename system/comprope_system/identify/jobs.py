@@ -102,7 +102,8 @@ def _diagnosed(judged: Any, left: Sequence[Any], standing: float, proposals: Seq
     if proposals:
         yield [f"Next run to measure: {proposals[0].told()}."]
     if found.verdict:
-        yield [f"To add it: comprope add {found.campaign.folder} {full_name(found.ranking[0].hypothesis)} --out MODEL.toml"]
+        command = "comprope --allow-code add" if found.campaign.model.own_effects else "comprope add"
+        yield [f"To add it: {command} {found.campaign.folder} {full_name(found.ranking[0].hypothesis)} --out MODEL.toml"]
 
 
 def add(request: Request, effect: str) -> Any:

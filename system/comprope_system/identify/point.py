@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, field, replace
+from math import exp
 from typing import Any
 
 import numpy as np
@@ -42,7 +43,7 @@ class Point:
             changed |= {f"effects.sensor_delay.{column}": known.get(column, 0.0) + late for column in run.values}
         for one in NUISANCES:
             if (coefficient := self.plant.get(one.name, 0.0)) and one.changes:
-                value = base[one.name] * (1.0 + coefficient) if one.relative else base[one.name] + coefficient
+                value = base[one.name] * exp(coefficient) if one.relative else base[one.name] + coefficient
                 # A fit may lean on a parameter that it cannot see; it must not leave what a model accepts.
                 changed[one.name] = min(max(value, DECLARED[one.name].minimum), DECLARED[one.name].maximum)
         return changed

@@ -43,10 +43,7 @@ def present(campaign: Campaign) -> tuple[Hypothesis | None, Floats]:
 
 def joined(parts: Sequence[Hypothesis]) -> Hypothesis | None:
     """Several effects as one hypothesis, in this order; where two set the same value the later one does."""
-    whole: Hypothesis | None = None
-    for part in parts:
-        whole = together(whole, part) if whole else part
-    return whole
+    return together(*parts) if parts else None
 
 
 def _as_hypotheses(

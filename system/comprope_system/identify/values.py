@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import hypot, isfinite
+from math import exp, hypot, isfinite
 
 import numpy as np
 
@@ -92,11 +92,11 @@ def plant_results(campaign: Campaign, fitted: Fitted, scale: float = 1.0) -> dic
     """The refitted plant by model key; values of the model file, which a run may replace."""
     base, found = values_of(campaign.model) | {CLOCK: 0.0}, {}
     for k, one in enumerate(NUISANCES):
-        size, least = (base[one.name] if one.relative else 1.0), (-float("inf") if one.name == CLOCK else 0.0)
-        value = max(base[one.name] + size * float(fitted.coefficients[k]), least)
-        deviation = abs(size) * scale * float(fitted.deviation[k])
-        reach = CONFIDENCE * deviation
-        found[one.name] = Value(value, deviation, max(value - reach, least), value + reach, base[one.name])
+        c, deviation = float(fitted.coefficients[k]), scale * float(fitted.deviation[k])
+        place = (lambda x, at=base[one.name]: at * exp(x)) if one.relative else (lambda x, at=base[one.name]: at + x)
+        least = 0.0 if one.changes else -float("inf")
+        value, low, high = (max(place(c + x), least) for x in (0.0, -CONFIDENCE * deviation, CONFIDENCE * deviation))
+        found[one.name] = Value(value, deviation * (value if one.relative else 1.0), low, high, base[one.name])
     return found
 
 
