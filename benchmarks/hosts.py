@@ -1,8 +1,8 @@
-"""The native FMU in a host without Python: under sanitizers, and its Windows binary under wine.
+"""The native FMU in a host without Python: under sanitizers, under valgrind, and its Windows binary under wine.
 
     python benchmarks/hosts.py dist/CompensationRope-native.fmu
 
-Needs gcc (its address and undefined-behaviour sanitizers), and for Windows ziglang and wine64.
+Needs gcc (its address and undefined-behaviour sanitizers); valgrind if it is there, and for Windows ziglang and wine64.
 """
 
 import importlib.util
@@ -27,6 +27,7 @@ from tests.native_fmu import tower
 
 HOST = Path(__file__).parent.parent / "tests" / "native_host.c"
 SCENARIOS = {"cycle": 50, "threads": 5, "states": 1, "wrong": 1}
+RIDE = 400  # steps of 10 ms
 WINE = ("wine64", "/usr/lib/wine/wine64")
 _SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1", "-std=c11")
 
@@ -38,21 +39,21 @@ def arguments(fmu: str, guid: str, binary: str, number: int) -> list[str]:
     return [binary, guid, *(places[name] for name in names), str(number)]
 
 
-def run(command: list[str]) -> str:
-    """The last line of a program's output, or how it ended."""
+def run(command: list[str], line: int = -1) -> str:
+    """A line of a program's output, the last one by default, or how it ended."""
     result = subprocess.run(
         command, capture_output=True, text=True, timeout=600, check=False, env=os.environ | {"WINEDEBUG": "-all"}
     )
     lines = (result.stdout.strip() or result.stderr.strip() or "no output").splitlines()
-    return lines[-1] if result.returncode == 0 else f"exit status {result.returncode}: {lines[0]}"
+    return lines[line] if result.returncode == 0 else f"exit status {result.returncode}: {lines[0]}"
 
 
 def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
     """Every scenario with the face in C compiled under sanitizers; the kernels are as in the FMU."""
-    generated = {"kernels.h": kernels_header(tower(), sizes()), "model.c": model_source(tower(), "sanitized")}
+    generated = {"kernels.h": kernels_header(tower(), sizes({})), "model.c": model_source(tower(), "sanitized")}
     for name, content in (link.face_sources() | {name: text.encode() for name, text in generated.items()}).items():
         (stage / name).write_bytes(content)
-    (stage / "kernels.o").write_bytes(machine_code(kernels(), TARGETS["linux"]))
+    (stage / "kernels.o").write_bytes(machine_code(kernels({}), TARGETS["linux"]))
     sources = sorted(str(path) for path in stage.glob("*.c"))
     options = ["gcc", *_SANITIZED, f"-I{stage}", f"-I{link.HEADERS}"]
     binary, host = str(stage / "face.so"), str(stage / "host")
@@ -63,17 +64,34 @@ def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
         yield scenario, run([host, scenario, *arguments(fmu, "sanitized", binary, number)])
 
 
-def in_wine(fmu: str, stage: Path, wine: str) -> Iterator[tuple[str, str]]:
-    """Every scenario but threads with the Windows binary of the FMU."""
+def in_valgrind(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
+    """Scenarios with the Linux binary of the FMU, kernels and all: memory not its own, not set, or not given back."""
+    guid, binary, host = read_model_description(fmu).guid, unpacked(fmu, stage, "linux"), str(stage / "plain")
+    subprocess.run(["gcc", "-std=c11", "-O1", f"-I{link.HEADERS}", str(HOST), "-o", host, "-ldl", "-lpthread"], check=True)
+    valgrind = ["valgrind", "-q", "--error-exitcode=9", "--leak-check=full", "--errors-for-leak-kinds=definite"]
+    for scenario, number in {"cycle": 2, "states": 1, "wrong": 1}.items():
+        yield scenario, run([*valgrind, host, scenario, *arguments(fmu, guid, binary, number)])
+
+
+def unpacked(fmu: str, stage: Path, target: str) -> str:
+    """Path of the FMU's binary for a target."""
+    place = TARGETS[target]
     with zipfile.ZipFile(fmu) as archive:
-        binary = archive.extract("binaries/win64/CompensationRope.dll", stage)
+        return archive.extract(f"binaries/{place.folder}/CompensationRope.{place.extension}", stage)
+
+
+def in_wine(fmu: str, stage: Path, wine: str) -> Iterator[tuple[str, str]]:
+    """Every scenario but threads with the Windows binary of the FMU, and a ride beside that of the Linux binary."""
+    binary = unpacked(fmu, stage, "windows")
     host = str(stage / "host.exe")
     zig = [sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-windows-gnu"]
     subprocess.run([*zig, "-std=c11", "-O1", f"-I{link.HEADERS}", str(HOST), "-o", host], check=True)
-    guid = read_model_description(fmu).guid
+    guid, windows_path = read_model_description(fmu).guid, "Z:" + binary.replace("/", "\\")
     for scenario in ("cycle", "states", "wrong"):
-        windows_path = "Z:" + binary.replace("/", "\\")
         yield scenario, run([wine, host, scenario, *arguments(fmu, guid, windows_path, SCENARIOS[scenario])])
+    there = run([wine, host, "ride", *arguments(fmu, guid, windows_path, RIDE)], line=0)
+    here = run([str(stage / "host"), "ride", *arguments(fmu, guid, unpacked(fmu, stage, "linux"), RIDE)], line=0)
+    yield "ride of 4 s", f"lateral displacement {there} m, on Linux {here} m"
 
 
 def main() -> None:
@@ -84,6 +102,9 @@ def main() -> None:
         print("| host | scenario | outcome |\n|---|---|---|")
         for scenario, outcome in sanitized(fmu, Path(folder)):
             print(f"| Linux, sanitized | {scenario} | {outcome} |", flush=True)
+        if shutil.which("valgrind"):
+            for scenario, outcome in in_valgrind(fmu, Path(folder)):
+                print(f"| Linux, valgrind | {scenario} | {outcome} |", flush=True)
         if wine and importlib.util.find_spec("ziglang"):
             for scenario, outcome in in_wine(fmu, Path(folder), wine):
                 print(f"| Windows binary in wine | {scenario} | {outcome} |", flush=True)

@@ -11,7 +11,7 @@ import argparse
 import gc
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -25,12 +25,17 @@ from comprope.rope.modelfile import load
 from comprope_system import presets
 
 STEP = 0.01
+SWITCHES = ("derivative_inputs", "inputs_at_end")
+ENDS = ("car_position", "counterweight_position")
 SPEEDS = {"tower50": 2.5, "building200": 5.0}  # m/s, at the middle of the trip
-Ride = Callable[[float, tuple[float, float]], None]
+Ride = Callable[[float, Sequence[float]], None]
 
 
-def through_fmu(path: str, model: ModelInterface) -> Ride:
-    """One step of an FMU whose parameters are those of a model with as many sensors."""
+def through_fmu(path: str, model: ModelInterface, inputs: Sequence[str] = ENDS, dt: float = STEP) -> Ride:
+    """One step of `dt` [s] of an FMU whose parameters are those of a model with as many sensors.
+
+    Inputs are positions held over the step, or, if there are more, positions, velocities and accelerations at its end.
+    """
     description = read_model_description(path)
     places = {one.name: one.valueReference for one in description.modelVariables}
     outputs = [one.valueReference for one in description.modelVariables if one.causality == "output" and one.type == "Real"]
@@ -40,28 +45,30 @@ def through_fmu(path: str, model: ModelInterface) -> Ride:
     slave.setupExperiment(startTime=0.0)
     settable = [one for one in model.variables if one.role != "output" and one.kind == "real"]
     slave.setReal([places[one.name] for one in settable], [one.start for one in settable])
+    slave.setBoolean([places[name] for name in SWITCHES], [len(inputs) > len(ENDS)] * len(SWITCHES))
     slave.enterInitializationMode()
     slave.exitInitializationMode()
-    ends = [places["car_position"], places["counterweight_position"]]
+    given = [places[name] for name in inputs]
 
-    def step(time: float, positions: tuple[float, float]) -> None:
-        slave.setReal(ends, positions)
-        slave.doStep(time, STEP)
+    def step(time: float, values: Sequence[float]) -> None:
+        slave.setReal(given, values)
+        slave.doStep(time, dt)
         slave.getReal(outputs)
 
     return step
 
 
-def direct(model: ModelInterface) -> Ride:
-    """One step of the model itself."""
+def direct(model: ModelInterface, inputs: Sequence[str] = ENDS, dt: float = STEP) -> Ride:
+    """One step of the model itself, as of `through_fmu`."""
     run, places = Run(model), {one.name: place for place, one in enumerate(model.variables)}
-    ends = [places["car_position"], places["counterweight_position"]]
+    given = [places[name] for name in inputs]
     outputs = [place for place, one in enumerate(model.variables) if one.role == "output" and one.kind == "real"]
+    run.write("boolean", [places[name] for name in SWITCHES], [len(inputs) > len(ENDS)] * len(SWITCHES))
     run.begin()
 
-    def step(time: float, positions: tuple[float, float]) -> None:
-        run.write("real", ends, positions)
-        run.step(time, STEP)
+    def step(time: float, values: Sequence[float]) -> None:
+        run.write("real", given, values)
+        run.step(time, dt)
         run.read("real", outputs)
 
     return step

@@ -162,6 +162,17 @@ static void scenario_cycle(void)
     CHECK(told == 0);
 }
 
+/* One ride of so many steps; where it gets to can be compared with other systems. */
+static void scenario_ride(void)
+{
+    const Fmu fmu = load();
+    fmi2Component one = begun(&fmu);
+    ride(&fmu, one, 0, (int)given.number);
+    printf("%.17g\n", output(&fmu, one));
+    end(&fmu, one);
+    CLOSE(fmu.library);
+}
+
 #ifndef _WIN32
 typedef struct {
     const Fmu *fmu;
@@ -321,6 +332,8 @@ int main(int count, char **arguments)
     const char *scenario = arguments[1];
     if (!strcmp(scenario, "cycle")) {
         scenario_cycle();
+    } else if (!strcmp(scenario, "ride")) {
+        scenario_ride();
     } else if (!strcmp(scenario, "states")) {
         scenario_states();
     } else if (!strcmp(scenario, "wrong")) {

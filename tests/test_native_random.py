@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, precondition, rule, run_state_machine_as_test
 
 from comprope.fmi.build import build
-from comprope.rope.modelfile import dump, load
+from comprope.rope.engine import ENTRY
+from comprope.rope.modelfile import bundle, load
 from comprope_system import presets
-from comprope_system.cosim.fmus import _ROPE_ENTRY
 
 from .fmi_pair import ODD, SMALL, STEPS, Pair, random_call
 from .native_fmu import ORIGIN, compiler, native_fmu, tower
@@ -99,8 +99,7 @@ def test_any_sequence_of_calls() -> None:
 
 def python_fmu(out: Path) -> Path:
     """The same rope as an FMU in Python."""
-    dump(load(presets.model_path("tower50")), out / "model.toml")
-    return build(tower(), ["rope"], _ROPE_ENTRY, out, ORIGIN, {"model.toml": (out / "model.toml").read_bytes()})
+    return build(tower(), ["rope"], ENTRY, out, ORIGIN, bundle(load(presets.model_path("tower50"))))
 
 
 # So many calls take 20 s and 80 s; by default only a share of them is made.

@@ -28,7 +28,8 @@ from .icon import icon
 from .page import page
 
 COMPROPE = Path(__file__).parent.parent
-FACE = ("__init__", "binary", "check", "engine", "face", "failure", "run", "runstate")  # what of this package runs inside an FMU
+# What of this package runs inside an FMU.
+FACE = ("__init__", "binary", "check", "engine", "face", "failure", "run", "runstate", "units")
 FIXED_TIME = (1980, 1, 1, 0, 0, 0)
 DESCRIPTION = "modelDescription.xml"
 
@@ -95,7 +96,7 @@ class Bundle:
         nodes = [node for tree in trees for node in ast.walk(tree)]
         names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
         names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module and not node.level}
-        foreign = {name.partition(".")[0] for name in names} - sys.stdlib_module_names - {"pythonfmu"}
+        foreign = {name.partition(".")[0] for name in names} - sys.stdlib_module_names - {"pythonfmu", "comprope"}
         owners = metadata.packages_distributions()
         return " ".join(sorted({owners.get(name, [name])[0].lower() for name in foreign}))
 

@@ -30,6 +30,11 @@ class Run:
         self._engine: Engine | None = None
         self._running = False
 
+    @property
+    def engine(self) -> Engine:
+        """The model's engine, made from the present values if there is none."""
+        return self._made_engine()
+
     def plan(self, start: float, stop: float | None) -> None:
         """Take over the start time and, if there is one, the stop time [s]; refused once the run has begun."""
         if self._running:

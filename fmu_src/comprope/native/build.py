@@ -3,7 +3,6 @@
 Model description, documentation and icon come from where those of the FMU that runs in Python come from.
 """
 
-import sys
 import uuid
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
@@ -17,27 +16,25 @@ from ..fmi.engine import ModelInterface
 from ..fmi.face import slave_class
 from ..fmi.icon import icon
 from ..fmi.page import page
-from ..rope.effects.base import REGISTRY
+from ..rope.effects.own import FILES
 from ..whole import whole_file
 from . import link
 from .ir import kernels, sizes
 from .machine import TARGETS, machine_code
 from .reference import reference
-from .tables import kernels_header, model_source
-
-_OWN_EFFECTS = "comprope.rope.effects."
+from .tables import effects_of, kernels_header, model_source
 
 
 def build_native(interface: ModelInterface, out: Path, origin: Origin, targets: Sequence[str] = ()) -> Path:
     """Write `<out>/<name>-native.fmu`, whole or not at all, and return its path.
 
-    It has binaries for `targets` (see `machine.TARGETS`), by default all that can be linked for here. Effects that
-    are registered are compiled in. The same sources and tools give the same bytes.
+    It has binaries for `targets` (see `machine.TARGETS`), by default all that can be linked for here. The
+    effects that the model may have are compiled in, a user's own as well. The same sources and tools give the same bytes.
     """
     if problems := interface_problems(interface):
         raise InputError("; ".join(problems))
-    effects, chosen = effect_files(), list(targets) or link.linkable()
-    code, header = kernels(effects), kernels_header(interface, sizes(effects))
+    files, chosen = own_files(interface), list(targets) or link.linkable()
+    code, header = kernels(files), kernels_header(interface, sizes(files))
     compiled = {name: machine_code(code, TARGETS[name]) for name in chosen}
     content = reference(interface) | _documentation(interface, origin, link.systems(chosen))
     parts = {f"kernels/{name}": one for name, one in compiled.items()} | content
@@ -50,10 +47,9 @@ def build_native(interface: ModelInterface, out: Path, origin: Origin, targets: 
     return path
 
 
-def effect_files() -> list[Path]:
-    """Files of the effects that a user has added, in the order in which they were registered."""
-    modules = dict.fromkeys(effect.__module__ for effect in REGISTRY.values())
-    return [Path(str(sys.modules[name].__file__)) for name in modules if not name.startswith(_OWN_EFFECTS)]
+def own_files(interface: ModelInterface) -> dict[str, str]:
+    """Sources of the user's own effects that a rope may have by path, in the order in which they were first run."""
+    return {one.source: FILES[one.source].text for one in effects_of(interface) if one.source}
 
 
 def description(interface: ModelInterface, version: str, guid: str) -> bytes:

@@ -29,8 +29,10 @@ def face_sources() -> dict[str, bytes]:
 
 
 def toolchain() -> str:
-    """What compiles here: `zig 0.13.0`, or the system's own compiler."""
-    return f"zig {metadata.version('ziglang')}" if _zig() else f"{_system_compiler()}, for this system only"
+    """What compiles here: zig and its version, or the system's own compiler."""
+    if _zig():
+        return f"zig {metadata.version('ziglang')}, for {systems(TARGETS)}"
+    return f"{_system_compiler()}, for this system only; `pip install ziglang` brings a compiler for {systems(TARGETS)}"
 
 
 def linkable() -> list[str]:
@@ -82,7 +84,7 @@ def _extras(target: Target, output: str) -> Iterator[str]:
     if target.extension == "dylib":
         yield f"-Wl,-install_name,@rpath/{output}"
     if target.extension == "so":
-        yield "-Wl,-soname," + output
+        yield from (f"-Wl,-soname,{output}", "-Wl,-z,defs")  # the latter refuses what no library has, as other systems do
 
 
 def _compiler(target: Target) -> list[str]:

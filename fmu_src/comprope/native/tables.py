@@ -10,7 +10,7 @@ from ..rope import words
 from ..rope.bound import without_friction
 from ..rope.compose import compiled
 from ..rope.display import SHOWN
-from ..rope.effects.base import REGISTRY
+from ..rope.effects.base import REGISTRY, Effect
 from ..rope.following import PAST
 from ..rope.jit import kind
 from ..rope.motion import NAMES
@@ -59,6 +59,12 @@ def quoted(text: str) -> str:
     return '"' + "".join(chr(byte) if byte in plain else f"\\{byte:03o}" for byte in text.encode()) + '"'
 
 
+def effects_of(interface: ModelInterface) -> list[type[Effect]]:
+    """The effects that a rope may have: those with parameters among its variables."""
+    found = {one.name.split(".")[1] for one in interface.variables if one.name.startswith("effects.")}
+    return [effect for name, effect in REGISTRY.items() if name in found]
+
+
 def kernels_header(interface: ModelInterface, sizes: Mapping[int, Mapping[str, int]]) -> str:
     """What `engine.c` needs of the kernels: `kernels.h`.
 
@@ -87,8 +93,8 @@ def _constants(interface: ModelInterface) -> str:
         "FIRST_INPUT": _first(places, list(NAMES)),
         "FIRST_OUTPUT": _first(places, [*shown, *SHOWN]),
         "SENSORS": sensors,
-        "EFFECTS": len(REGISTRY),
-        "HISTORIES": sum(one.states for one in REGISTRY.values()),
+        "EFFECTS": len(effects_of(interface)),
+        "HISTORIES": sum(one.states for one in effects_of(interface)),
         "TOLD": words.TOLD,
     }
     return "enum {\n" + "".join(f"    {name} = {value},\n" for name, value in firsts.items()) + "};\n"
@@ -103,9 +109,11 @@ def _first(places: dict[str, int], names: list[str], empty: str = "") -> int:
 
 def _slots(interface: ModelInterface) -> str:
     """Where each of the kernels' parameters stands among the values, and which ones a rope without friction has instead."""
-    places = [_places(interface).get(name, -1) for name in DECLARED]
-    smooth = without_friction(np.full(len(DECLARED), np.nan))
-    pairs = [f"    {{{slot}, {_number(value)}}},\n" for slot, value in enumerate(smooth.tolist()) if value == value]
+    effects = tuple(f"effects.{one.name}." for one in effects_of(interface))
+    known = [k for k, name in enumerate(DECLARED) if not name.startswith("effects.") or name.startswith(effects)]
+    names, smooth = list(DECLARED), without_friction(np.full(len(DECLARED), np.nan)).tolist()
+    places = [_places(interface).get(names[k], -1) for k in known]
+    pairs = [f"    {{{slot}, {_number(smooth[k])}}},\n" for slot, k in enumerate(known) if smooth[k] == smooth[k]]
     return (
         f"enum {{ SLOT_COUNT = {len(places)}, SMOOTH_COUNT = {len(pairs)} }};\n\n"
         f"static const int SLOT_PLACES[SLOT_COUNT] = {{{', '.join(map(str, places))}}};\n\n"
