@@ -6,30 +6,24 @@ dist/Elevator.ssp, drive and rope connected, with the native rope if there is on
 
 import argparse
 import sys
-import tempfile
 import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
 sys.path.insert(0, str(ROOT / "fmu_src"))
 
+from comprope import consent  # noqa: E402
 from comprope.drive.engine import interface as drive_interface  # noqa: E402
 from comprope.errors import CompropeError, InputError  # noqa: E402
 from comprope.fmi.build import Origin, build  # noqa: E402
 from comprope.fmi.ssp import Part, wires_by_name, write_ssp  # noqa: E402
 from comprope.rope.effects import RopeModel  # noqa: E402
+from comprope.rope.engine import ENTRY as ROPE_ENTRY  # noqa: E402
 from comprope.rope.engine import interface as rope_interface  # noqa: E402
-from comprope.rope.modelfile import dump, load  # noqa: E402
+from comprope.rope.modelfile import bundle, load  # noqa: E402
 from comprope.rope.parameters import Sensor  # noqa: E402
 
 DEFAULT_MODEL = ROOT / "system" / "comprope_system" / "presets" / "tower50.toml"
-
-ROPE_ENTRY = """\
-from .rope.engine import interface
-from .rope.modelfile import load
-
-INTERFACE = interface(load(HERE / "model.toml"))
-"""
 
 DRIVE_ENTRY = """\
 from .drive.engine import interface
@@ -42,28 +36,30 @@ def main(arguments: list[str] | None = None) -> int:
     """Build both FMUs; returns the exit status: 0 done, 2 bad input, 1 anything else."""
     options = _options(arguments)
     try:
-        origin = Origin(_version(), (ROOT / "LICENSE").read_text("utf-8"))
-        built = [build_rope(options.model, options.sensors, options.out, origin), build_drive(options.out, origin)]
-        if options.native:
-            built.append(build_native_rope(options.model, options.sensors, options.out, origin))
-        if options.ssp:
-            rope = built[2 * options.native]
-            built.append(build_ssp(model_with(options.model, options.sensors), rope, built[1], options.out))
-        sys.stdout.writelines(f"{path}\n" for path in built)
+        with consent.giving(options.allow_code):
+            sys.stdout.writelines(f"{path}\n" for path in _built(options))
     except CompropeError as error:
         sys.stderr.write(f"{error}\n")
         return 2 if isinstance(error, InputError) else 1
     return 0
 
 
+def _built(options: argparse.Namespace) -> list[Path]:
+    """Build all that is asked for."""
+    origin = Origin(_version(), (ROOT / "LICENSE").read_text("utf-8"))
+    built = [build_rope(options.model, options.sensors, options.out, origin), build_drive(options.out, origin)]
+    if options.native:
+        built.append(build_native_rope(options.model, options.sensors, options.out, origin))
+    if options.ssp:
+        rope = built[2 * options.native]
+        built.append(build_ssp(model_with(options.model, options.sensors), rope, built[1], options.out))
+    return built
+
+
 def build_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
     """The rope's FMU, its parameters starting at the values of a model file."""
     model = model_with(model_file, sensors)
-    with tempfile.TemporaryDirectory() as folder:
-        bundled = Path(folder) / "model.toml"
-        dump(model, bundled)
-        data = {"model.toml": bundled.read_bytes()}
-    return build(rope_interface(model), ["rope"], ROPE_ENTRY, out, origin, data)
+    return build(rope_interface(model), ["rope"], ROPE_ENTRY, out, origin, bundle(model))
 
 
 def build_native_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
@@ -111,6 +107,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--out", type=Path, default=ROOT / "dist", metavar="DIR", help="folder to write to (default: dist)")
     parser.add_argument("--ssp", action="store_true", help="drive and rope also as one system, connected")
     parser.add_argument("--native", action="store_true", help="the rope also as an FMU that needs no Python")
+    parser.add_argument("--allow-code", action="store_true", help="run the files of own effects that the model names")
     return parser.parse_args(arguments)
 
 

@@ -3,9 +3,11 @@
 import importlib
 import pkgutil
 import sys
+from typing import Annotated
 
 import typer
 
+from comprope import consent
 from comprope.errors import CompropeError, InputError
 
 from . import commands
@@ -15,13 +17,17 @@ DONE, FAILED, BAD_INPUT = 0, 1, 2
 app = typer.Typer(add_completion=False, rich_markup_mode="markdown", pretty_exceptions_enable=False)
 
 
+ALLOW_CODE = Annotated[bool, typer.Option("--allow-code", help="Run the Python files of own effects that a model names.")]
+
+
 @app.callback(invoke_without_command=True)
-def _welcome(context: typer.Context) -> None:
+def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False) -> None:
     """How an elevator's compensation ropes swing: simulate a trip, and compare it with what was measured.
 
     Begin with `comprope simulate tower50 --plot trip.png`. Wherever a command takes
     MODEL.toml, the name of a preset does too: tower50, tower50_light, building200.
     """
+    context.with_resource(consent.giving(allow_code))
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
 

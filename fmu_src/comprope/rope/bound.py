@@ -8,7 +8,7 @@ import numpy as np
 from . import band, work, zone
 from .compose import compiled
 from .display import SHOWN
-from .effects.base import REGISTRY
+from .effects.base import REGISTRY, sections
 from .ends import PATH, PATHS
 from .slots import DECLARED, MU, slot
 from .standing import INPUTS
@@ -21,20 +21,22 @@ Call = Callable[..., Any]
 class Bound:
     """Memory and kernels of one rope of n nodes with parameters p and sensors at `spots` (see `display`).
 
-    `state` is the accepted state; `u`, `path`, `f`, `w`, `touch`, `seen`, `told` and `y` are what calls read or
-    leave. Each kernel is an attribute, to be called with its scalars by name.
+    `effects` are those whose kernels it has, by default all that are registered. `state` is the accepted state; `u`,
+    `path`, `f`, `w`, `touch`, `seen`, `told` and `y` are what calls read or leave. Each kernel is an attribute, to be
+    called with its scalars by name.
     """
 
-    def __init__(self, n: int, p: Array, spots: Array | None = None) -> None:
-        effects, states = len(REGISTRY), sum(one.states for one in REGISTRY.values())
-        self.state, trial = empty(n, states, effects), empty(n, states, effects)
+    def __init__(self, n: int, p: Array, spots: Array | None = None, effects: tuple[str, ...] | None = None) -> None:
+        self.effects = tuple(REGISTRY) if effects is None else effects
+        count, states = len(self.effects), sections(self.effects)
+        self.state, trial = empty(n, states, count), empty(n, states, count)
         m, s = n + 1, self.state
         sizes = {"w": work.SECTIONS * m, "A": work.BAND * m, "L": band.FACTOR * m, "B": (zone.ROW + 2) * 2 * m + 4}
         sizes |= {
             "Z": work.CONTACT * m + 4,
             "r": 2 * m,
             "touch": work.TOUCH,
-            "power": effects + 1,
+            "power": count + 1,
             "path": PATHS * PATH,
             "seen": 2,
             "u": INPUTS,
@@ -54,7 +56,7 @@ class Bound:
         self.standing = arrays | kept | {"q": s.q, "v": s.v, "a": s.a}
         self.path, self.f, self.w, self.touch = (arrays[name] for name in ("path", "f", "w", "touch"))
         self.u, self.seen, self.told, self.y = (arrays[name] for name in ("u", "seen", "told", "y"))
-        self.scalars = {"n": n, "effects": effects, "state_size": states * m}
+        self.scalars = {"n": n, "effects": count, "state_size": states * m}
         self.reach, self.settle, self.travel, self.show, self.residual = (
             self._bind(name, self.moving) for name in ("reach", "settle", "travel", "show", "residual")
         )
@@ -63,7 +65,7 @@ class Bound:
         )
 
     def _bind(self, name: str, arrays: dict[str, Array]) -> Call:
-        entry = compiled()[name]
+        entry = compiled(self.effects)[name]
         own = {key: value for key, value in self.scalars.items() if key in entry.names}
         call = entry.bind(**{key: array for key, array in arrays.items() if key in entry.names})
         return lambda **scalars: call(**own, **scalars)

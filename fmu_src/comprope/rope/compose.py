@@ -10,6 +10,7 @@ import inspect
 import os
 import sys
 import tempfile
+import threading
 import types
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -48,21 +49,16 @@ from . import (
     work,
     zone,
 )  # fmt: skip
-from .effects import REGISTRY
-from .effects.base import Effect, Kernel
+from .effects import REGISTRY, differenced
+from .effects.base import HOOKS, Effect, Kernel
+from .effects.own import FILES
+from .effects.sound import require_sound
 
 MODULES = (
     work, words, jit, hooks, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics, standing, following,
     travel, sensors, display, vector, lanes, slope, groove, acting, tangent, journey, glance,
 )  # fmt: skip
-ARGUMENTS = {
-    "moments": "n, p, w, h0, h1",
-    "forces": "n, t, p, q, v, w, f",
-    "tangents": "n, t, p, q, v, w, A, ck, cc",
-    "ends": "n, t, p, q, v, a",
-    "groove": "p, angle",
-    "begin": "n, p, w, h0",
-}
+_LOCK = threading.RLock()
 ENTRIES = {
     "divide": (standing.divide, "number"),
     "coarse": (standing.coarse, "integer"),
@@ -86,18 +82,24 @@ ENTRIES = {
 
 def hook_source(hook: str, effects: list[type[Effect]]) -> str:
     """Source of one function that runs a hook through all effects that have it."""
-    calls = [(k, f"{effect.name}_{hook}({ARGUMENTS[hook]})") for k, effect in enumerate(effects) if hook in effect.hooks]
+    having = [(k, effect) for k, effect in enumerate(effects) if hook in effect.hooks or (hook == "tangents" and _bare(effect))]
+    calls = [(k, f"{effect.name}_{hook}({HOOKS[hook]})") for k, effect in having]
     if hook == "groove":
         lines = ["x, y, gx, gy = 0.0, 0.0, 0.0, 0.0"]
         for _, call in calls:
             lines += [f"a, b, c, d = {call}", "x, y, gx, gy = x + a, y + b, gx + c, gy + d"]
-        return _function(hook, ARGUMENTS[hook], [*lines, "return x, y, gx, gy"])
+        return _function(hook, HOOKS[hook], [*lines, "return x, y, gx, gy"])
     powered = hook in ("moments", "forces")
-    arguments = ARGUMENTS[hook] + (", power" if powered else "")
+    arguments = HOOKS[hook] + (", power" if powered else "")
     lines = [f"power[{k}] {'=' if hook == 'moments' else '+='} {call}" if powered else call for k, call in calls]
     if hook == "moments":
         lines = [f"power[{k}] = 0.0" for k in range(len(effects))] + lines
     return _function(hook, arguments, lines or ["pass"])
+
+
+def _bare(effect: type[Effect]) -> bool:
+    """Whether an effect has forces without tangents, which are then found by differences."""
+    return "forces" in effect.hooks and "tangents" not in effect.hooks
 
 
 def _function(name: str, arguments: str, lines: list[str]) -> str:
@@ -134,28 +136,54 @@ def _user_cache() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "comprope"
 
 
-@cache
 def compiled(effects: tuple[str, ...] | None = None) -> dict[str, jit.Entry]:
-    """The joined functions (`jit.Entry`, see ENTRIES) for the effects named, all by default."""
-    chosen = [REGISTRY[name] for name in (REGISTRY if effects is None else effects)]
-    modules = [sys.modules[name] for name in sorted({effect.__module__ for effect in chosen})]
-    acting = "\n".join(hook_source(hook, chosen) for hook in ARGUMENTS)
+    """The joined functions (`jit.Entry`, see ENTRIES) for the effects named, by default for all that are registered.
+
+    Raises `InputError` for a user's own effect that cannot be compiled or does not hold together.
+    """
+    with _LOCK:
+        return _joined(tuple(REGISTRY[name] for name in (REGISTRY if effects is None else effects)))
+
+
+@cache
+def _joined(chosen: tuple[type[Effect], ...]) -> dict[str, jit.Entry]:
+    acting = "\n".join(hook_source(hook, list(chosen)) for hook in HOOKS)
     entries = "\n".join(entry_source(name, *one) for name, one in ENTRIES.items())
-    sources = [inspect.getsource(one) for one in (*MODULES, *modules)]
-    folder = cache_folder([acting, entries, *sources, repr(list(slots.DECLARED))])
+    folder = cache_folder([acting, entries, *_sources(chosen), repr(_slots(chosen))])
+    if not (folder / "joined.py").exists():
+        for effect in chosen:
+            if effect.source:
+                require_sound(effect)
     joined = types.ModuleType(f"comprope_joined_{folder.name}")
     # What is compiled is loaded again by the name of its module, which must not depend on where this package stands.
     sys.modules[joined.__name__] = joined
     for effect in chosen:
         own = bound(vars(sys.modules[effect.__module__]), joined.__name__)
         joined.__dict__.update({f"{effect.name}_{hook}": own[one.__name__] for hook, one in effect.hooks.items()})
+        if _bare(effect):
+            names = vars(differenced) | {"own_forces": own[effect.hooks["forces"].__name__], "__name__": joined.__name__}
+            code = differenced.differenced.__code__
+            joined.__dict__[f"{effect.name}_tangents"] = jit.kernel(types.FunctionType(code, names, f"{effect.name}_tangents"))
     joined.__dict__["kernel"] = jit.kernel
     exec(acting, joined.__dict__)
     names = {key: value for module in MODULES for key, value in vars(module).items()}
-    names |= {f"all_{hook}": getattr(joined, f"all_{hook}") for hook in ARGUMENTS}
+    names |= {f"all_{hook}": getattr(joined, f"all_{hook}") for hook in HOOKS}
     joined.__dict__.update(bound(names, joined.__name__))
     exec(compile(entries, _file(folder / "joined.py", entries), "exec"), joined.__dict__)
     return {name: jit.Entry(getattr(joined, f"call_{name}"), returns) for name, (_, returns) in ENTRIES.items()}
+
+
+def _sources(chosen: Iterable[type[Effect]]) -> list[str]:
+    """The source of every kernel; of own effects as it was run, whatever has become of the file."""
+    modules = {effect.__module__ for effect in chosen if not effect.source}
+    built_in = [inspect.getsource(one) for one in (*MODULES, differenced, *(sys.modules[name] for name in sorted(modules)))]
+    return built_in + sorted({FILES[effect.source].text for effect in chosen if effect.source})
+
+
+def _slots(chosen: Iterable[type[Effect]]) -> list[tuple[int, str]]:
+    """Which entries of the parameter vector the kernels know, and as what."""
+    absent = tuple(f"effects.{name}." for name in set(REGISTRY) - {effect.name for effect in chosen})
+    return [(k, name) for k, name in enumerate(slots.DECLARED) if not name.startswith(absent)]
 
 
 def bound(names: Mapping[str, Any], module: str) -> dict[str, Any]:

@@ -1,10 +1,11 @@
 """The rope as a model for co-simulation: its variables, and how an engine is made from their values."""
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from ..fmi.engine import ModelInterface, Value, Variable, parameters_of
-from .effects.base import REGISTRY
+from .effects import REGISTRY, names_of
 from .model import CompensationRope, values_of
 from .modelfile import validated
 from .motion import EndMotion
@@ -12,6 +13,13 @@ from .parameters import Base
 from .slots import COMPONENTS, DECLARED
 
 NAME = "CompensationRope"
+# What makes the interface inside an FMU, from the files of `modelfile.bundle`. Who built it has consented to run them.
+ENTRY = """\
+from .rope.engine import interface
+from .rope.modelfile import load
+
+INTERFACE = interface(load(HERE / "model.toml", allow_code=True))
+"""
 _DESCRIPTION = (
     "Elevator compensation rope on a free sheave: lateral displacement at sensors and sheave force, from the car's and "
     "the counterweight's positions"
@@ -46,24 +54,29 @@ _COUNTS = (
 def interface(model: Base) -> ModelInterface:
     """Variables and maker of the rope; parameters start at the values of `model`, sensors are as many as its."""
     variables = (*_parameters(model), *_inputs(model), *_outputs(len(model.sensors)))
-    return ModelInterface(NAME, _DESCRIPTION, variables, create, stop_time=30.0, step_size=_STEP)
+    make = partial(create, own_effects=tuple(getattr(model, "own_effects", ())))
+    return ModelInterface(NAME, _DESCRIPTION, variables, make, stop_time=30.0, step_size=_STEP)
 
 
-def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> "RopeEngine":
+def create(
+    parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float, own_effects: tuple[str, ...] = ()
+) -> "RopeEngine":
     """A rope at rest at `start_time` [s] from values by name, as declared by `interface`.
 
-    Raises InputError with all problems of the values, SimulationError when no shape at rest is found.
+    `own_effects` are the model's files. Raises InputError with all problems of the values, SimulationError when no
+    shape at rest is found.
     """
-    return RopeEngine(model_of(parameters), parameters, inputs, start_time)
+    return RopeEngine(model_of(parameters, own_effects), parameters, inputs, start_time)
 
 
-def model_of(parameters: Mapping[str, Any]) -> Base:
+def model_of(parameters: Mapping[str, Any], own_effects: tuple[str, ...] = ()) -> Base:
     """The rope model that parameters such as `rope.mass_per_length` and `sensors[1].height` describe."""
     table: dict[str, Any] = {}
     for name, value in parameters.items():
         component, _, quantity = name.rpartition(".")
         if component in COMPONENTS:
             table.setdefault(component, {})[quantity] = value
+    table["own_effects"] = own_effects
     table["effects"] = {name: part for name in REGISTRY if (part := _active(name, parameters))}
     table["sensors"] = [_sensor(k, parameters) for k in range(_sensors(parameters))]
     return validated(table, "parameters")
@@ -125,7 +138,7 @@ class RopeEngine:
 
 def _parameters(model: Base) -> tuple[Variable, ...]:
     values = values_of(model)
-    groups: dict[str, type[Any]] = COMPONENTS | {f"effects.{name}": effect for name, effect in REGISTRY.items()}
+    groups: dict[str, type[Any]] = COMPONENTS | {f"effects.{name}": REGISTRY[name] for name in names_of(model)}
     own = {
         key: {name.rpartition(".")[2]: value for name, value in values.items() if name.startswith(f"{key}.")} for key in groups
     }

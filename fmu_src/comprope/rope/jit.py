@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numba
+import numba.extending
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,6 +26,20 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     if PURE:
         return function
     return numba.njit(function, **OPTIONS)
+
+
+@numba.extending.intrinsic
+def _room(context, size):
+    """Memory for `size` numbers that a kernel has until it returns, taken from the stack."""
+    pointer = numba.types.CPointer(numba.float64)
+
+    def code(context, builder, signature, arguments):
+        return builder.alloca(context.get_value_type(numba.float64), size=arguments[0])
+
+    return pointer(numba.int64), code
+
+
+room = np.zeros if PURE else _room
 
 
 INTEGERS = {"n", "m", "steps", "state_size", "effects", "side", "directions", "blocks", "parameters", "sensors"}

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 from ..declare import quantities
+from ..errors import SimulationError
 from . import ledger
 from .bound import Bound
 from .compose import compiled
 from .display import SHOWN
-from .effects.base import REGISTRY
+from .effects import REGISTRY, names_of
 from .newmark import HALVED, NEWTON, STEPS
 from .parameters import Base
 from .slots import COMPONENTS, ELEMENT, vector
@@ -40,10 +41,11 @@ class CompensationRope:
     def __init__(self, model: Base) -> None:
         self.model = model
         self.p = np.array(vector(values_of(model)))
-        self.n = int(compiled()["divide"].bind(p=self.p)())
+        effects = names_of(model)
+        self.n = int(compiled(effects)["divide"].bind(p=self.p)())
         self.element = float(self.p[ELEMENT])
         spots = [(sensor.height, sensor.side == "counterweight") for sensor in model.sensors]
-        self._do = Bound(self.n, self.p, np.array(spots, float).ravel())
+        self._do = Bound(self.n, self.p, np.array(spots, float).ravel(), effects)
 
     @property
     def state(self) -> State:
@@ -61,7 +63,7 @@ class CompensationRope:
         self.check_reach(car, counterweight, time)
         self._do.u[[CAR_OUT, COUNTERWEIGHT_OUT]] = outward
         self._do.renew(time)
-        require_fine(self._do.settle(t=time), self._do.told)
+        self.require(self._do.settle(t=time))
 
     def check_reach(self, car: float, counterweight: float, time: float) -> None:
         """Refuse ends [m] between which the rope cannot hang; raises InputError."""
@@ -77,7 +79,17 @@ class CompensationRope:
         at the last accepted one.
         """
         self._do.path[:] = path
-        require_fine(self._do.travel(dt=dt), self._do.told)
+        self.require(self._do.travel(dt=dt))
+
+    def require(self, status: float) -> None:
+        """Raise what a kernel's status stands for, and name a user's own effect whose forces have become no numbers."""
+        power = self._do.moving["power"]
+        lost = [REGISTRY[name] for k, name in enumerate(self._do.effects) if not np.isfinite(power[k])]
+        own = [f"{one.name} ({one.source})" for one in lost if one.source]
+        try:
+            require_fine(status, self._do.told)
+        except SimulationError as error:
+            raise SimulationError(f"{error}; not finite are the forces of {', '.join(own)}" if own else str(error)) from None
 
     # -- what it shows ---------------------------------------------------------------------------
 
@@ -121,7 +133,7 @@ class CompensationRope:
 
     def energies(self) -> dict[str, float]:
         """The ledger [J]: stored energies, works and losses by name."""
-        names = [*ledger.STORED, "ends", *ledger.SPENT, *(f"effects.{name}" for name in REGISTRY)]
+        names = [*ledger.STORED, "ends", *ledger.SPENT, *(f"effects.{name}" for name in self._do.effects)]
         return dict(zip(names, self.state.energy.tolist(), strict=True))
 
     @property

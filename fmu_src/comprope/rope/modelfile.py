@@ -1,9 +1,11 @@
 """Model files: a rope model as TOML, read with all its problems reported at once, written whole or not at all."""
 
+import os
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from pydantic import ValidationError
@@ -11,17 +13,20 @@ from pydantic import ValidationError
 from ..errors import InputError
 from ..explain import problems
 from ..whole import whole_file
-from .effects import RopeModel, model_type
+from .effects import RopeModel, model_type, own
 
 _NO_KEY = "not the key of a single value in this model, such as sheave.mass or sensors[1].height"
 
 
-def load(path: str | Path) -> RopeModel:
-    """The rope model in a TOML file.
+def load(path: str | Path, *, allow_code: bool = False) -> RopeModel:
+    """The rope model in a TOML file; `allow_code` is consent to run the files that it names under `own_effects`.
 
     Raises `InputError` naming every problem of the file, one line each: key, value and what is accepted.
     """
-    return validated(read_toml(path), str(path))
+    table = read_toml(path)
+    if files := _own_files(table):
+        table["own_effects"] = _admitted([Path(path).parent / file for file in files], str(path), allow_code)
+    return validated(table, str(path))
 
 
 def dump(model: RopeModel, path: str | Path, comment: str = "") -> None:
@@ -32,6 +37,8 @@ def dump(model: RopeModel, path: str | Path, comment: str = "") -> None:
     import tomli_w  # needed for writing only, so that an FMU, which reads, does without it
 
     table = as_table(model)
+    if model.own_effects:
+        table["own_effects"] = [_seen_from(Path(path).resolve().parent, file) for file in model.own_effects]
     sensors = table.pop("sensors", [])
     blocks = [tomli_w.dumps(table)] + [f"\n[[sensors]]\n{tomli_w.dumps(sensor)}" for sensor in sensors]
     printable = ("".join(letter if letter.isprintable() else " " for letter in line) for line in comment.splitlines())
@@ -57,8 +64,15 @@ def with_changes(model: RopeModel, changes: Mapping[str, Any], source: str = "ch
 
 
 def validated(table: Mapping[str, Any], source: str) -> RopeModel:
-    """The model a table describes; `source` begins each line of the `InputError` if it describes none."""
-    kind = model_type()
+    """The model a table describes; `source` begins each line of the `InputError` if it describes none.
+
+    Files with effects of a user's own stand in it by their absolute paths, or relative to where the program runs.
+    """
+    files = _own_files(table)
+    if unknown := [file for file in files if file not in own.FILES]:
+        files = [*(file for file in files if file in own.FILES), *_admitted(map(Path, unknown), source)]
+        table = {**table, "own_effects": files}
+    kind = model_type(files)
     try:
         return kind.model_validate(_frozen(table))
     except ValidationError as error:
@@ -68,8 +82,47 @@ def validated(table: Mapping[str, Any], source: str) -> RopeModel:
 def as_table(model: RopeModel) -> dict[str, Any]:
     """The model as nested plain tables, absent effects left out, as it stands in a model file."""
     table = model.model_dump(exclude_none=True)
-    table["sensors"] = list(table["sensors"])
+    table |= {"sensors": list(table["sensors"]), "own_effects": list(model.own_effects)}
     return {key: value for key, value in table.items() if value not in ({}, [])}
+
+
+def bundle(model: RopeModel) -> dict[str, bytes]:
+    """A folder for an FMU, by the files' paths in it: model.toml and the files of own effects that it names."""
+    with TemporaryDirectory() as folder:
+        inside = Path(folder).resolve()
+        renamed = [inside / "own_effects" / f"{k}_{Path(file).name}" for k, file in enumerate(model.own_effects, 1)]
+        dump(model.model_copy(update={"own_effects": tuple(map(str, renamed))}), inside / "model.toml")
+        files = {"model.toml": (inside / "model.toml").read_bytes()}
+    for old, new in zip(model.own_effects, renamed, strict=True):
+        files[new.relative_to(inside).as_posix()] = own.FILES[old].text.encode()
+    return files
+
+
+def _own_files(table: Mapping[str, Any]) -> list[str]:
+    """What stands under own_effects; nothing where that is no list of texts, which validation will tell."""
+    files = table.get("own_effects", ())
+    return list(files) if isinstance(files, list | tuple) and all(isinstance(one, str) for one in files) else []
+
+
+def _admitted(files: Iterable[Path], source: str, allow_code: bool = False) -> list[str]:
+    """Files of own effects, run where they have not been, by their absolute paths."""
+    found, wrong = [str(file.resolve()) for file in files], []
+    for file in found:
+        try:
+            own.read(Path(file), allow_code=allow_code)
+        except InputError as error:
+            wrong.append(f"{source}: own_effects: {error}")
+    if wrong:
+        raise InputError("\n".join(wrong))
+    return found
+
+
+def _seen_from(folder: Path, file: str) -> str:
+    """The path of a file relative to a folder; as it is where there is no way from one to the other, on another drive."""
+    try:
+        return Path(os.path.relpath(file, folder)).as_posix()
+    except ValueError:
+        return file
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:

@@ -24,7 +24,6 @@ from .standing import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
 from .state import Array
 from .tangent import BEGUN, BY_HAND, CHANGED, DIFFERENCED, ENDS_STEP
 from .vector import LANES
-from .words import require_fine
 
 Direction = Mapping[str, float]
 SHARE = 1e-4  # of a parameter or of its nominal value: the most by which forces are differenced
@@ -89,7 +88,7 @@ class SensitiveRope:
         return paths
 
     def _bind(self, name: str) -> Any:
-        entry = compiled()[name]
+        entry = compiled(self.rope._do.effects)[name]
         own = self.rope._do.scalars | {"directions": len(self.names), "blocks": self._blocks, "parameters": self.rope.p.size}
         own |= {"sensors": len(self.rope.model.sensors)}
         call = entry.bind(**{key: array for key, array in self._arrays.items() if key in entry.names})
@@ -150,7 +149,7 @@ class SensitiveRope:
         if path_changes is not None:
             self._arrays["dpath"][:] = np.asarray(path_changes, float).ravel()
             self._arrays["guided"][:] = 1.0
-        require_fine(self._advance(dt=dt, exact=self.exact), self.rope._do.told)
+        self.rope.require(self._advance(dt=dt, exact=self.exact))
 
     # -- what it shows ---------------------------------------------------------------------------
 

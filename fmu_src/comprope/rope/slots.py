@@ -7,6 +7,8 @@ order in which they register; `element` is derived, since the mesh makes the nat
 from collections.abc import Mapping
 
 from ..declare import Component, Quantity, quantities
+from ..errors import InputError
+from ..explain import suggestion
 from .parameters import Contact, Rope, Shaft, Sheave, Solver
 
 COMPONENTS: dict[str, type[Component]] = {"shaft": Shaft, "rope": Rope, "sheave": Sheave, "contact": Contact, "solver": Solver}
@@ -25,7 +27,9 @@ DECLARED["derived.element"] = Quantity("element", "m", "exact element length", 0
 
 
 def slot(name: str) -> int:
-    """Index of a quantity in the parameter vector."""
+    """Index of a quantity in the parameter vector; raises `InputError` for one that is not declared."""
+    if name not in DECLARED:
+        raise InputError(f"{name}: no such quantity; {suggestion(name, list(DECLARED))}")
     return list(DECLARED).index(name)
 
 

@@ -1,5 +1,6 @@
 """All effects that a model may have, and the model type that takes them."""
 
+from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
@@ -7,40 +8,44 @@ from pydantic import Field, create_model
 
 from ...declare import Component
 from ..parameters import Base
-from . import air_drag, bending_hysteresis, intrinsic_curvature, rope_ends, sheave_eccentricity, sheave_guide
-from .base import HOOKS, REGISTRY, Effect, acts, register
+from . import air_drag, bending_hysteresis, intrinsic_curvature, own, rope_ends, sheave_eccentricity, sheave_guide
+from .base import HOOKS, INSTRUMENT, REGISTRY, Effect, acts, register
 
 __all__ = [
     "HOOKS", "INSTRUMENT", "REGISTRY", "Effect", "RopeModel", "acts", "air_drag", "bending_hysteresis", "intrinsic_curvature",
-    "model_type", "register", "rope_ends", "sheave_eccentricity", "sheave_guide",
+    "model_type", "names_of", "own", "register", "rope_ends", "sheave_eccentricity", "sheave_guide",
 ]  # fmt: skip
-
-# What instruments do to what they show: one value per channel. No part of the rope, so the kernels know nothing of it.
-INSTRUMENT = {
-    "sensor_gain": "what a channel shows over what is there, by the channel's column",
-    "sensor_offset": "what a channel shows when there is nothing, in SI units, by the channel's column",
-    "sensor_delay": "how late a channel shows it [s], by the channel's column",
-}
-
 
 class RopeModel(Base):
     """A rope model with effects: what a model file holds. `effects` has one optional field per effect."""
 
     effects: Any = None
+    own_effects: tuple[str, ...] = Field(
+        (), description='a list of Python files with effects of your own, relative to the model file, such as ["rail_joints.py"]'
+    )
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickled as plain tables, since the type itself is made at run time."""
-        return restored, (self.model_dump(exclude_none=True),)
+        """Pickled as plain tables, since the type itself is made at run time; own effects go with their source."""
+        return restored, (self.model_dump(exclude_none=True), {path: own.FILES[path].text for path in self.own_effects})
 
 
-def restored(table: dict[str, Any]) -> RopeModel:
-    """The model of a table."""
-    return model_type().model_validate(table)
+def restored(table: dict[str, Any], sources: Mapping[str, str]) -> RopeModel:
+    """The model of a table, with its own effects by file and source: who pickled it had consented to run them."""
+    for path, text in sources.items():
+        own.admit(path, text)
+    return model_type(table["own_effects"]).model_validate(table)
 
 
-def model_type() -> type[RopeModel]:
-    """The model type with a field for every effect that is registered by now."""
-    return _type_with(tuple(REGISTRY.items()))
+def model_type(files: Iterable[str] = ()) -> type[RopeModel]:
+    """The model type with a field for every effect of comprope and of these files, which have been admitted."""
+    names = {name for path in files for name in own.FILES[path].effects}
+    return _type_with(tuple(one for one in REGISTRY.items() if not one[1].source or one[0] in names))
+
+
+def names_of(model: Base) -> tuple[str, ...]:
+    """The effects that a model may have: those of comprope and those of its own files."""
+    fields = getattr(type(getattr(model, "effects", None)), "model_fields", {})
+    return tuple(name for name, effect in REGISTRY.items() if not effect.source or name in fields)
 
 
 @cache

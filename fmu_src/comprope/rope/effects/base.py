@@ -1,7 +1,7 @@
 """What an effect is: quantities declared once, and kernels for the places where it acts.
 
 An effect may act in these ways, each a kernel of fixed arguments (n nodes, m = n + 1 columns per
-section, see `work`):
+section, see `work`; HOOKS):
 
     moments(n, p, w, h0, h1) -> W       adds to w[MOMENT], and its derivative by curvature to w[STIFF]
     forces(n, t, p, q, v, w, f) -> W    adds forces to f, on nodes or on the sheave (column n)
@@ -16,14 +16,30 @@ W is the power [W] that the effect puts into rope and sheave. With every quantit
 value a kernel must change nothing.
 """
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterable
 from typing import Any, ClassVar
 
 from ...declare import Component
+from ...errors import InputError
 from .. import slots
 
 Kernel = Callable[..., Any]
-HOOKS = ("moments", "forces", "tangents", "ends", "groove", "begin")
+# The arguments of each kernel.
+HOOKS = {
+    "moments": "n, p, w, h0, h1",
+    "forces": "n, t, p, q, v, w, f",
+    "tangents": "n, t, p, q, v, w, A, ck, cc",
+    "ends": "n, t, p, q, v, a",
+    "groove": "p, angle",
+    "begin": "n, p, w, h0",
+}
+# What instruments do to what they show: one value per channel. No part of the rope, so the kernels know nothing of it.
+INSTRUMENT = {
+    "sensor_gain": "what a channel shows over what is there, by the channel's column",
+    "sensor_offset": "what a channel shows when there is nothing, in SI units, by the channel's column",
+    "sensor_delay": "how late a channel shows it [s], by the channel's column",
+}
 
 
 class Effect(Component):
@@ -32,9 +48,12 @@ class Effect(Component):
     For the diagnosis: `probes` are values to try for quantities in which the response is not linear,
     `polar` names an amplitude and a phase that stand for a cosine and a sine, and `brings` are other
     effects' values that this one cannot do without.
+
+    `source` is the file of a user's own effect.
     """
 
     name: ClassVar[str]
+    source: ClassVar[str] = ""
     hooks: ClassVar[dict[str, Kernel]] = {}
     states: ClassVar[int] = 0
     first_state: ClassVar[int] = 0
@@ -47,16 +66,30 @@ REGISTRY: dict[str, type[Effect]] = {}
 
 
 def register(effect: type[Effect]) -> type[Effect]:
-    """Give the effect its slots in the parameter vector and its sections of history."""
+    """Give the effect its slots in the parameter vector and its sections of history.
+
+    Raises `InputError` for a name that is none or is taken.
+    """
+    name = getattr(effect, "name", "")
+    if not re.fullmatch("[a-z][a-z0-9_]*", name):
+        raise InputError(f'{effect.__name__}.name = "{name}": small letters, digits and underscores are accepted')
+    if name in INSTRUMENT or name in REGISTRY:
+        where = getattr(REGISTRY.get(name), "source", "") or "comprope itself"
+        raise InputError(f'{effect.__name__}.name = "{name}": {where} has an effect of this name; another name is accepted')
     effect.first_state = sum(one.states for one in REGISTRY.values())
-    REGISTRY[effect.name] = effect
-    slots.declare(f"effects.{effect.name}", effect)
+    REGISTRY[name] = effect
+    slots.declare(f"effects.{name}", effect)
     return effect
 
 
+def sections(names: Iterable[str]) -> int:
+    """How many sections of history these effects need."""
+    return max((REGISTRY[name].first_state + REGISTRY[name].states for name in names if REGISTRY[name].states), default=0)
+
+
 def acts(effect: type[Effect], **hooks: Kernel) -> None:
-    """Say where an effect acts: `acts(AirDrag, forces=..., tangents=...)`."""
+    """Say where an effect acts: `acts(AirDrag, forces=..., tangents=...)`; raises `InputError` for another place."""
     unknown = set(hooks) - set(HOOKS)
     if unknown:
-        raise TypeError(f"{effect.name}: no such hook: {', '.join(sorted(unknown))}; there are {', '.join(HOOKS)}")
+        raise InputError(f"{effect.name}: no such hook: {', '.join(sorted(unknown))}; there are {', '.join(HOOKS)}")
     effect.hooks = hooks

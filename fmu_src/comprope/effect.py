@@ -1,0 +1,12 @@
+"""What a file with an effect of your own imports: `from comprope.effect import Effect, acts, kernel, quantity, register, slot`.
+
+See docs/own_effect.md. In an FMU this package has another name; a file of effects finds these names there all the same.
+"""
+
+from .declare import quantity
+from .rope import work
+from .rope.effects.base import Effect, acts, register
+from .rope.jit import kernel
+from .rope.slots import slot
+
+__all__ = ["Effect", "acts", "kernel", "quantity", "register", "slot", "work"]
