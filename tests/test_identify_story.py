@@ -12,7 +12,7 @@ import pytest
 
 from comprope.rope.modelfile import load
 from comprope_system import cli
-from comprope_system.identify.add import heading, prepare
+from comprope_system.identify.add import beside_the_model, heading, prepare
 from comprope_system.identify.campaign import load_campaign
 from comprope_system.identify.clues import clues
 from comprope_system.identify.compare import compare
@@ -132,14 +132,14 @@ def test_values_come_with_their_uncertainty(better):
 
 
 def test_the_new_model_file_stands_for_itself(better, executor, tmp_path):
-    """Read back, it gives the same errors, and its first lines say where its numbers come from."""
+    """Read back, it gives the same errors with the campaign's clock, and its first lines say where its numbers come from."""
     from comprope.rope.modelfile import dump
 
     dump(better.model, tmp_path / "new.toml", heading(better))
     text = (tmp_path / "new.toml").read_text()
     assert text.startswith("# lift.toml with sheave_eccentricity, fitted to the campaign") and "±" in text
     model = load(tmp_path / "new.toml")
-    again = compare(replace(better.before.campaign, model=model), executor)
+    again = compare(replace(better.before.campaign, model=model), executor, beside_the_model(better.fitted))
     assert again.validate_nrmse == pytest.approx(better.after.validate_nrmse, rel=1e-9)
 
 

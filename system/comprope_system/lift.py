@@ -85,5 +85,5 @@ def _rope(stack: ExitStack, model: RopeModel, direct: bool) -> Participant:
     interface = rope_interface(model)
     if direct:
         return DirectParticipant("rope", interface, ROPE_INPUTS)
-    path = fmus.rope_fmu(len(model.sensors))
+    path = fmus.rope_fmu(len(model.sensors), model.own_effects)
     return stack.enter_context(FmuParticipant("rope", path, start_values(interface) | ROPE_INPUTS))

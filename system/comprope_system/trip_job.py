@@ -5,19 +5,24 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
+from comprope.drive.course import first_course
 from comprope.drive.parameters import Drive
-from comprope.drive.trajectory import plan
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
+from comprope.rope.engine import RopeEngine
+from comprope.rope.model import CompensationRope
 from comprope.rope.modelfile import load, with_changes
 from comprope.whole import require_writable
 
+from .animation.camera import Camera
+from .cosim.direct import DirectParticipant
 from .lift import Lift, driven, load_drive, prescribed
 from .measured import Run, read_run
 from .presets import drive_path, model_path
@@ -52,6 +57,7 @@ class Request:
     one_way: bool = False
     out: Path | None = None
     plot: Path | None = None
+    report: Path | None = None
 
 
 def run(request: Request) -> Simulated:
@@ -66,16 +72,40 @@ def run(request: Request) -> Simulated:
     lift, duration = _lift(request, model, drive_changes, measured)
     duration = duration if request.duration is None else request.duration
     timing = Timing(duration, request.step, "one-way" if request.one_way else "two-way")
-    with lift as ready, _progress_bar() as report:
-        simulated = simulate(ready, names, timing, report)
+    with lift as ready, _progress_bar() as bar:
+        camera = Camera(partial(_rope, ready), timing.step) if request.report else None
+        simulated = simulate(ready, names, timing, _both(bar, camera))
     _write(request, simulated, measured)
+    if request.report and camera:
+        from .animation.page import save_trip_page
+
+        save_trip_page(request.report, request.model, model, simulated, camera, measured)
     _print(request, simulated)
     return simulated
 
 
+def _both(bar: Report, camera: Camera | None) -> Report:
+    """Tell the bar of each step, and let the camera take it."""
+
+    def step(count: int, total: int) -> None:
+        bar(count, total)
+        if camera:
+            camera(count, total)
+
+    return step
+
+
+def _rope(lift: Lift) -> CompensationRope:
+    """The rope of a lift that is stepped in this process."""
+    rope = lift.participants[-1]
+    if not isinstance(rope, DirectParticipant) or not isinstance(rope.engine, RopeEngine):
+        raise TypeError("an FMU does not show the rope's shape")
+    return rope.engine.rope
+
+
 def _require_files(request: Request) -> None:
     """Refuse files that could not be written, before the long computation."""
-    for path in (request.out, request.plot):
+    for path in (request.out, request.plot, request.report):
         if path:
             require_writable(path)
     if request.plot and request.plot.suffix.lower() not in PICTURES:
@@ -111,12 +141,12 @@ def assignments(texts: Sequence[str]) -> dict[str, Any]:
 def _lift(
     request: Request, model: RopeModel, drive_changes: dict[str, dict[str, Any]], measured: Run | None
 ) -> tuple[AbstractContextManager[Lift], float]:
-    """The lift to simulate and how long a trip takes it [s]."""
+    """The lift to simulate and how long a trip takes it [s]; an FMU shows no shapes, so a report needs the models themselves."""
+    direct = request.direct or request.report is not None
     if measured:
-        return prescribed(model, measured.trips, request.direct), measured.end
+        return prescribed(model, measured.trips, direct), measured.end
     drive = _drive(request, model, drive_changes)
-    trip = plan(drive.profile, drive.trip.start_position, drive.trip.destination, drive.trip.start_time)
-    return driven(model, drive, request.direct), trip.end_time + SETTLE
+    return driven(model, drive, direct), first_course(drive).end_time + SETTLE
 
 
 def _drive(request: Request, model: RopeModel, changes: dict[str, dict[str, Any]]) -> Drive:
@@ -155,6 +185,6 @@ def _write(request: Request, simulated: Simulated, measured: Run | None) -> None
 
 def _print(request: Request, simulated: Simulated) -> None:
     lines = summary(simulated)
-    lines += [("written", str(path)) for path in (request.out, request.plot) if path]
+    lines += [("written", str(path)) for path in (request.out, request.plot, request.report) if path]
     width = max(len(name) for name, _ in lines)
     sys.stdout.write("".join(f"{name:<{width}}  {text}\n" for name, text in lines))

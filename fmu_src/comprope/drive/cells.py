@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from .hoist import STATES, state_space
-from .parameters import Drive
+from .parameters import Drive, FirstTrip
 
 _SPAN = 0.01
 _N = len(STATES)
@@ -45,9 +45,13 @@ class Cells:
         full[:_N] = (expm(square) @ full)[:_N]
 
 
-@lru_cache(maxsize=8)
 def cells(drive: Drive) -> Cells:
-    """The cells of a drive's shaft; kept, so that a reset or a second instance need not wait for them."""
+    """The cells of a drive's shaft; kept, so that a reset, another instance or another trip need not wait for them."""
+    return _cells(Drive(shaft=drive.shaft, plant=drive.plant, servo=drive.servo, trip=FirstTrip(destination=0.0)))
+
+
+@lru_cache(maxsize=8)
+def _cells(drive: Drive) -> Cells:
     centres = _centres(drive.plant.headroom, drive.shaft.height)
     hoists = [state_space(drive, float(x)) for x in centres]
     sampled = [control.sample_system(hoist, drive.servo.sample_period, method="zoh") for hoist in hoists]

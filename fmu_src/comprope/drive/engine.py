@@ -14,11 +14,11 @@ from pydantic import ValidationError
 from ..errors import InputError
 from ..explain import problems
 from ..fmi.engine import ModelInterface, Variable, parameters_of
+from .course import first_course
 from .hoist import holding_force
 from .parameters import Drive
 from .stability import unstable_positions
 from .stepping import DriveEngine, compensation_pulls, input_problems
-from .trajectory import plan
 
 NAME = "ElevatorDrive"
 _DESCRIPTION = "Elevator drive: jerk-limited trips, position and speed servo, car and counterweight on elastic hoist ropes"
@@ -45,8 +45,7 @@ _FLAGS = (
 def interface(drive: Drive | None = None) -> ModelInterface:
     """The drive's variables and maker; parameters start at the values of `drive`, by default the declared ones."""
     chosen = drive or Drive()
-    first = plan(chosen.profile, chosen.trip.start_position, chosen.trip.destination, chosen.trip.start_time)
-    stop_time = ceil(first.end_time + _REST_AFTER)
+    stop_time = ceil(first_course(chosen).end_time + _REST_AFTER)
     variables = _parameters(chosen) + _inputs(chosen) + _outputs()
     return ModelInterface(NAME, _DESCRIPTION, variables, create, stop_time=float(stop_time))
 

@@ -4,9 +4,15 @@ The defaults are a 50 m test tower at 150 m/min (2.5 m/s) and 0.8 m/s2, machine 
 ropes 1:1, and two compensation ropes that weigh as much per metre as all hoist ropes together.
 """
 
+from itertools import accumulate
+
 from pydantic import model_validator
 
 from ..declare import Component, quantity
+
+SHORTEST = 0.01  # s, of a moving average: a shorter one would be lost in rounding
+PARTS = 20  # of the travel time, for trips of a free shape
+STOPS = 1e-9  # of the largest acceleration over the travel time: the speed that a shape may end with
 
 
 class Profile(Component):
@@ -15,6 +21,74 @@ class Profile(Component):
     speed: float = quantity("m/s", "rated speed", 0.01, 25.0, default=2.5)
     acceleration: float = quantity("m/s2", "largest acceleration and deceleration", 0.01, 3.0, default=0.8)
     jerk: float = quantity("m/s3", "largest rate of change of acceleration", 0.01, 20.0, default=0.8)
+    smoothing: float = quantity("s", "moving average over trips, after which the jerk has ramps; 0: none", 0.0, 20.0, default=0.0)
+
+    @model_validator(mode="after")
+    def _smooths_for_a_while(self) -> "Profile":
+        if 0.0 < self.smoothing < SHORTEST:
+            raise ValueError(f"smoothing = {self.smoothing} s: accepted is 0 (none) or {SHORTEST} to 20 s")
+        return self
+
+
+def _share(k: int) -> float:
+    told = f"acceleration after {k}/{PARTS} of the travel time, over the largest; all 0: jerk-limited trips"
+    share: float = quantity("1", told, -1.0, 1.0, default=0.0)
+    return share
+
+
+class Curve(Component):
+    """A free shape of the trips: accelerations at twentieths of the travel time, straight lines between, 0 at both ends."""
+
+    a1: float = _share(1)
+    a2: float = _share(2)
+    a3: float = _share(3)
+    a4: float = _share(4)
+    a5: float = _share(5)
+    a6: float = _share(6)
+    a7: float = _share(7)
+    a8: float = _share(8)
+    a9: float = _share(9)
+    a10: float = _share(10)
+    a11: float = _share(11)
+    a12: float = _share(12)
+    a13: float = _share(13)
+    a14: float = _share(14)
+    a15: float = _share(15)
+    a16: float = _share(16)
+    a17: float = _share(17)
+    a18: float = _share(18)
+    a19: float = _share(19)
+
+    @property
+    def used(self) -> bool:
+        """Whether there is a shape."""
+        return any(getattr(self, name) for name in type(self).model_fields)
+
+    @model_validator(mode="after")
+    def _goes_and_stops(self) -> "Curve":
+        shares = [getattr(self, name) for name in type(self).model_fields]
+        speeds = list(accumulate(shares))
+        if self.used and abs(speeds[-1]) > STOPS * PARTS:
+            raise ValueError(f"the sum of a1 to a{PARTS - 1} is {speeds[-1]:.6g}: accepted is 0, so that the car stops")
+        if self.used and (min(speeds) < -STOPS * PARTS or max(speeds) <= 0.0):
+            raise ValueError("a1, a1 + a2 and so on: no sum below 0 is accepted, so that the car never goes back")
+        return self
+
+
+class Shaper(Component):
+    """Input shaper of the trips, matched to the compensation rope's slowest swing."""
+
+    impulses: float = quantity("1", "1: no shaper, 2: ZV, 3: ZVD, or EI with a tolerance", 1.0, 3.0, default=1.0)
+    period_landing: float = quantity("s", "period shaped for on trips about a terminal landing", 0.1, 60.0, default=4.0)
+    period_middle: float = quantity("s", "the same on trips about half-way up; in proportion in between", 0.1, 60.0, default=3.0)
+    damping: float = quantity("1", "damping ratio of that swing", 0.0, 0.5, default=0.0, nominal=0.01)
+    tolerance: float = quantity("1", "share of the swing that a shaper of three impulses may leave (EI)", 0.0, 0.5, default=0.0)
+
+    @model_validator(mode="after")
+    def _counts(self) -> "Shaper":
+        if self.impulses not in (1.0, 2.0, 3.0):
+            raise ValueError(f"impulses = {self.impulses}: accepted is 1, 2 or 3")
+        return self
 
 
 class FirstTrip(Component):
@@ -68,6 +142,8 @@ class Drive(Component):
 
     shaft: Shaft = Shaft()
     profile: Profile = Profile()
+    curve: Curve = Curve()
+    shaper: Shaper = Shaper()
     trip: FirstTrip = FirstTrip()
     plant: Plant = Plant()
     rope: CompensationRopes = CompensationRopes()

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import InputError, SimulationError
 from .cells import cells
+from .course import course
 from .hoist import V_C, V_S, V_W, X_C, X_W, S, holding_force
 from .memory import Memory
 from .parameters import Drive
@@ -33,6 +34,7 @@ class DriveEngine:
         trip = plan(drive.profile, self._home, drive.trip.destination, drive.trip.start_time)
         pulls, heard = compensation_pulls(drive, inputs), inputs["destination"]
         self._memory = Memory(0, self._cells.at(self._home), 0.0, 0.0, heard, pulls, trip, np.zeros(11))
+        self._course = course(drive, trip)
         self._hold()
 
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
@@ -56,7 +58,7 @@ class DriveEngine:
     def outputs(self) -> dict[str, Any]:
         """Every output by name, at the time reached."""
         memory, full, time = self._memory, self._memory.full, self._now()
-        reference, rates = memory.trip.at(time), self._cells.rates[memory.cell] @ full
+        reference, rates = self._course.at(time), self._cells.rates[memory.cell] @ full
         return {
             "car_position": self._home + float(full[X_C]),
             "car_velocity": float(full[V_C]),
@@ -69,8 +71,8 @@ class DriveEngine:
             "reference_position": reference.position,
             "reference_velocity": reference.velocity,
             "reference_acceleration": reference.acceleration,
-            "moving": memory.trip.start_time <= time < memory.trip.end_time,
-            "trip_finished": time >= memory.trip.end_time,
+            "moving": self._course.start_time <= time < self._course.end_time,
+            "trip_finished": time >= self._course.end_time,
         }
 
     def get_state(self) -> bytes:
@@ -80,6 +82,7 @@ class DriveEngine:
     def set_state(self, state: bytes) -> None:
         """Restore what `get_state` gave to an engine with the same parameters and start time."""
         self._memory = Memory.unpack(state)
+        self._course = course(self._drive, self._memory.trip)
         self._hold()
 
     def _now(self) -> float:
@@ -95,13 +98,14 @@ class DriveEngine:
     def _sample(self, destination: float) -> None:
         """What the controller does once in a sample period: take a call, read the encoder, set the torque."""
         memory, full, time = self._memory, self._memory.full, self._now()
-        if time >= memory.trip.end_time and destination != memory.heard:
+        if time >= self._course.end_time and destination != memory.heard:
             memory.trip = plan(self._drive.profile, memory.trip.destination, destination, time)
             memory.heard = destination
+            self._course = course(self._drive, memory.trip)
         way, velocity = float(full[S]), float(full[V_S])
         self._check_in_shaft(self._home + way, time)
         memory.cell = self._cells.at(self._home + way)
-        at = memory.trip.at(time)
+        at = self._course.at(time)
         reference = Motion(at.position - self._home, at.velocity, at.acceleration)
         full[_FORCE], memory.integral = self._law.force(memory.integral, reference, way, velocity, self._limits)
 

@@ -59,6 +59,26 @@ class Trip:
         way, velocity, acceleration, jerk = self._begun(left)
         return Motion(self.destination - way, velocity, -acceleration, jerk)
 
+    def gone(self, time: float) -> float:
+        """The integral of the way from the origin over time, up to `time` [m s]: what a moving average needs."""
+        elapsed, left = time - self.start_time, self.end_time - time
+        if elapsed <= 0.0:
+            return 0.0
+        if elapsed <= left:
+            return self._gone_begun(elapsed)
+        return (self.destination - self.origin) * (elapsed - 0.5 * self.duration) + self._gone_begun(max(left, 0.0))
+
+    def _gone_begun(self, t: float) -> float:
+        """The integral of the way from the start to `t` after it, up to half of the duration."""
+        j, ramp, plateau = self.jerk, self.ramp, self.plateau
+        if t < ramp:
+            return j * t**4 / 24.0
+        a, gone = j * ramp, j * ramp**4 / 24.0
+        u = min(t - ramp, plateau)
+        gone += a * (ramp**2 * u / 6.0 + ramp * u**2 / 4.0 + u**3 / 6.0)
+        v, u = a * (ramp + plateau), max(t - ramp - plateau, 0.0)
+        return gone + v * (u**2 / 2.0 + plateau * u / 2.0) + j * (ramp**4 - max(ramp - u, 0.0) ** 4) / 24.0
+
     def _begun(self, t: float) -> tuple[float, float, float, float]:
         """Way, velocity, acceleration and jerk at `t` after the start, up to half of the duration."""
         j, ramp, plateau = self.jerk, self.ramp, self.plateau

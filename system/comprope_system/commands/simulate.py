@@ -20,6 +20,9 @@ DIRECT = Annotated[bool, typer.Option("--direct", help="Step the models in this 
 ONE_WAY = Annotated[bool, typer.Option("--one-way", help="The drive does not feel the rope.")]
 OUT = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write every communication step as a row.")]
 PLOT = Annotated[Path | None, typer.Option(metavar="FILE.png", help="Draw the trip; .pdf and .svg are fine too.")]
+REPORT = Annotated[
+    Path | None, typer.Option(metavar="F.html", help="Write a page that plays the trip, and shows its figures; steps as --direct.")
+]
 
 
 def simulate(
@@ -38,6 +41,7 @@ def simulate(
     one_way: ONE_WAY = False,
     out: OUT = None,
     plot: PLOT = None,
+    report: REPORT = None,
 ) -> None:
     """Co-simulate drive and rope through one trip of the car.
 
@@ -48,4 +52,4 @@ def simulate(
 
     profile = {"speed": speed, "acceleration": acceleration, "jerk": jerk}
     motion = Motion(start, end, {key: value for key, value in profile.items() if value is not None}, drive, car)
-    run(Request(model, motion, tuple(changes or ()), time, step, direct, one_way, out, plot))
+    run(Request(model, motion, tuple(changes or ()), time, step, direct, one_way, out, plot, report))

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from comprope.errors import InputError
-from comprope.fmi.engine import Kind, ModelInterface, Variable
+from comprope.fmi.engine import Engine, Kind, ModelInterface, Variable
 from comprope.fmi.run import Run
 
 
@@ -19,6 +19,11 @@ class DirectParticipant:
         self._references = {one.name: (reference, one) for reference, one in enumerate(interface.variables)}
         self._outputs = [one.name for one in interface.of_role("output")]
         self.set(parameters)
+
+    @property
+    def engine(self) -> Engine:
+        """What runs the model now; another one once parameters have changed before the first step."""
+        return self._run.engine
 
     def prepare(self, start: float) -> None:
         """See `Participant`."""

@@ -3,7 +3,6 @@
 import hashlib
 import os
 import sys
-import tempfile
 import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -17,20 +16,14 @@ import comprope
 from comprope.drive.engine import interface as drive_interface
 from comprope.fmi.build import Origin, build
 from comprope.fmi.engine import ModelInterface
+from comprope.rope.engine import ENTRY
 from comprope.rope.engine import interface as rope_interface
-from comprope.rope.modelfile import dump, load
-from comprope.rope.parameters import Sensor
+from comprope.rope.modelfile import as_table, bundle, load, validated
 
 from ..presets import model_path
 
 _SOURCES = Path(comprope.__file__).parent
 _DRIVE_ENTRY = "from .drive.engine import interface\n\nINTERFACE = interface()\n"
-_ROPE_ENTRY = """\
-from .rope.engine import interface
-from .rope.modelfile import load
-
-INTERFACE = interface(load(HERE / "model.toml"))
-"""
 
 
 @dataclass(frozen=True)
@@ -48,9 +41,9 @@ def drive_fmu() -> Path:
     return locate(Recipe(drive_interface(), "drive", _DRIVE_ENTRY))
 
 
-def rope_fmu(sensors: int) -> Path:
-    """The FMU of a rope with so many sensors, with the code installed here."""
-    return locate(_rope_recipe(sensors))
+def rope_fmu(sensors: int, own_effects: tuple[str, ...] = ()) -> Path:
+    """The FMU of a rope with so many sensors and a user's own effects, with the code installed here."""
+    return locate(_rope_recipe(sensors, own_effects))
 
 
 def locate(recipe: Recipe, dist: Path | None = None) -> Path:
@@ -70,14 +63,12 @@ def locate(recipe: Recipe, dist: Path | None = None) -> Path:
 
 
 @cache
-def _rope_recipe(sensors: int) -> Recipe:
-    """A rope like the test tower's; how many sensors there are is all that distinguishes one FMU from another."""
-    places = tuple(Sensor(name=f"sensor{k + 1}", side="car", height=0.0) for k in range(sensors))
-    model = load(model_path("tower50")).model_copy(update={"sensors": places})
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "model.toml"
-        dump(model, file)
-        return Recipe(rope_interface(model), "rope", _ROPE_ENTRY, {"model.toml": file.read_bytes()})
+def _rope_recipe(sensors: int, own_effects: tuple[str, ...]) -> Recipe:
+    """A rope like the test tower's; sensors and own effects are all that distinguishes one FMU from another."""
+    places = [{"name": f"sensor{k + 1}", "side": "car", "height": 0.0} for k in range(sensors)]
+    table = as_table(load(model_path("tower50"))) | {"sensors": places, "own_effects": own_effects}
+    model = validated(table, "tower50")
+    return Recipe(rope_interface(model), "rope", ENTRY, bundle(model))
 
 
 def _is_current(path: Path, recipe: Recipe) -> bool:
@@ -86,8 +77,9 @@ def _is_current(path: Path, recipe: Recipe) -> bool:
         names = sorted(one.name for one in fmpy.read_model_description(str(path)).modelVariables)
         with zipfile.ZipFile(path) as archive:
             inside = {_within_package(name): name for name in archive.namelist() if name.startswith("resources/comprope_")}
-            files = {file.relative_to(_SOURCES).as_posix(): file for file in _sources(recipe)}
-            same = all(name in inside and archive.read(inside[name]) == file.read_bytes() for name, file in files.items())
+            files = {file.relative_to(_SOURCES).as_posix(): file.read_bytes() for file in _sources(recipe)}
+            files |= {name: content for name, content in recipe.data.items() if name.endswith(".py")}
+            same = all(name in inside and archive.read(inside[name]) == content for name, content in files.items())
     except Exception:  # whatever is wrong with a file of that name, it is not the FMU we look for
         return False
     return same and names == sorted(one.name for one in recipe.interface.variables)

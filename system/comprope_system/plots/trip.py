@@ -61,7 +61,7 @@ def _draw_sheave(force: Axes, motion: Axes, simulated: Simulated) -> None:
 def _draw_sensor(axes: Axes, simulated: Simulated, name: str, measured: Run | None) -> None:
     table = simulated.table
     if measured and name in measured.channels:
-        time, value = _alongside(measured.channels[name], measured, simulated, name)
+        time, value = alongside(measured.channels[name], measured, simulated, name)
         axes.plot(time, value, color=MEASURED, linewidth=0.8, label="measured")
     _curve(axes, table["time"], 1e3 * table[name], f"{name} [mm]")
     if axes is axes.figure.axes[4]:
@@ -70,7 +70,7 @@ def _draw_sensor(axes: Axes, simulated: Simulated, name: str, measured: Run | No
             axes.legend(loc="best", frameon=False, ncols=2)
 
 
-def _alongside(channel: Channel, measured: Run, simulated: Simulated, name: str) -> tuple[ArrayLike, ArrayLike]:
+def alongside(channel: Channel, measured: Run, simulated: Simulated, name: str) -> tuple[ArrayLike, ArrayLike]:
     """The measured channel [mm] with, where it counts from rest, its rest put on the simulated one."""
     shift = 0.0
     if channel.from_rest:

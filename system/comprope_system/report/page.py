@@ -1,4 +1,4 @@
-"""Compose a page: sections of paragraphs, tables and pictures, in one file that needs no network."""
+"""Compose a page: sections of paragraphs, tables, pictures and animations, in one file that needs no network."""
 
 import base64
 import io
@@ -57,7 +57,16 @@ class Picture:
         return f"data:image/png;base64,{base64.b64encode(self.png).decode()}"
 
 
-Block = str | Table | Picture
+@dataclass(frozen=True)
+class Animation:
+    """A film (see `animation.film`) that the page plays, with a name and a caption."""
+
+    name: str
+    film: dict[str, Any]
+    caption: str = ""
+
+
+Block = str | Table | Picture | Animation
 
 
 @dataclass(frozen=True)
@@ -76,8 +85,9 @@ def render(template: str, title: str, lead: str = "", **values: Any) -> str:
         loader=PackageLoader(__name__.rpartition(".")[0], ""),
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    style = Path(__file__).with_name("style.css").read_text(encoding="utf-8")
-    return environment.get_template(template).render(title=title, lead=lead, style=style, version=_version(), **values)
+    style, player = (Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("style.css", "player.js"))
+    page = {"title": title, "lead": lead, "style": style, "player": player, "version": _version()}
+    return environment.get_template(template).render(page | values)
 
 
 def save_page(path: str | Path, title: str, lead: str, sections: Sequence[Section]) -> None:

@@ -1,0 +1,152 @@
+"""Write `reference.md`, beside this file, from the declarations: `python docs/build_reference.py`."""
+
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from comprope.declare import Quantity, quantities
+from comprope.drive.engine import interface as drive_interface
+from comprope.drive.parameters import Drive
+from comprope.fmi.engine import ModelInterface
+from comprope.rope.effects import INSTRUMENT, REGISTRY
+from comprope.rope.engine import interface as rope_interface
+from comprope.rope.modelfile import load
+from comprope.rope.parameters import Sensor
+from comprope.rope.slots import COMPONENTS, DECLARED
+from comprope_system.columns import columns
+from comprope_system.identify.campaign import UNITS, CampaignFile, Channel, RunSpec
+from comprope_system.presets import model_path
+
+PATH = Path(__file__).with_name("reference.md")
+TITLE = """# Reference
+
+Everything that has a name: what it means, its unit and its accepted range. This page is made from the program's own
+declarations by `python docs/build_reference.py`; do not edit it.
+"""
+# The paper's letters, as the kernels use them, and what they stand for: a declared quantity, or an FMU's variable.
+SYMBOLS = {
+    "rho": "rope.mass_per_length", "EA": "rope.axial_stiffness", "EI": "rope.bending_stiffness", "c_A": "rope.axial_damping",
+    "c_B": "rope.bending_damping", "c_E": "rope.external_damping", "d": "rope.diameter", "l": "rope.element_length",
+    "M": "sheave.mass", "R": "sheave.radius", "J": "sheave.inertia", "k": "contact.stiffness", "c": "contact.damping",
+    "mu": "contact.friction_coefficient", "v_0": "contact.slip_velocity", "g": "shaft.gravity", "H": "shaft.height",
+    "alpha": "solver.numerical_damping", "h": "solver.step",
+}  # fmt: skip
+VARIABLES = {  # state variables: symbol, sign between the equations and the FMU, output
+    "x_s": "pit - sheave_displacement", "theta": "sheave_angle", "omega": "sheave_angular_velocity", "P_x": "sheave_force",
+}  # fmt: skip
+
+
+def text() -> str:
+    """The whole page."""
+    rope, drive = rope_interface(load(model_path("tower50"))), drive_interface()
+    parts = [
+        TITLE, _symbols(rope), _model_file(), _effects(), _campaign(), _columns(),
+        _fmu("The rope's FMU", rope), _fmu("The drive's FMU", drive), _drive(),
+    ]  # fmt: skip
+    return "\n".join(parts)
+
+
+def _symbols(rope: ModelInterface) -> str:
+    declared = [
+        (f"`{symbol}`", f"{key.partition('.')[0]}: {DECLARED[key].help}", DECLARED[key].unit, f"`{key}`")
+        for symbol, key in SYMBOLS.items()
+    ]
+    outputs = {one.name: one for one in rope.of_role("output")}
+    states = [
+        (f"`{symbol}`", outputs[name.split(" - ")[-1]].help, outputs[name.split(" - ")[-1]].unit, f"`{name}`")
+        for symbol, name in VARIABLES.items()
+    ]
+    return _section("Nomenclature", "Symbols of [theory.md](theory.md) and of the kernels.", ("", "", "unit", "name"), declared + states)
+
+
+def _model_file() -> str:
+    said = "Tables of a model file. Without a default a quantity must be given. FMU parameters have the same names."
+    tables = [_quantities(f"`[{name}]`", component) for name, component in COMPONENTS.items()]
+    return "\n".join([f"## Model file\n\n{said}\n", *tables, _fields("`[[sensors]]`", Sensor, 3)])
+
+
+def _effects() -> str:
+    said = (
+        "Each is a table `[effects.NAME]` of a model file. An effect that is not mentioned is not in the model. Formulas and "
+        "sources: [theory.md](theory.md). Effects of your own: [own_effect.md](own_effect.md)."
+    )
+    tables = [_quantities(f"`[effects.{name}]`", effect) for name, effect in REGISTRY.items() if not effect.source]
+    instruments = _table(("instrument", ""), [(f"`[effects.{name}]`", help) for name, help in INSTRUMENT.items()])
+    return "\n".join([f"## Effects\n\n{said}\n", *tables, "### Instruments\n", instruments])
+
+
+def _campaign() -> str:
+    units = _table(("quantity", "units"), [(f"`{name}`", ", ".join(f"`{unit}`" for unit in known)) for name, known in UNITS.items()])
+    tables = (_fields("top of the file", CampaignFile, 3), _fields("`[[channels]]`", Channel, 3), _fields("`[[runs]]`", RunSpec, 3))
+    return "\n".join(["## Campaign: `campaign.toml`\n", *tables, "### Quantities of channels\n", units])
+
+
+def _columns() -> str:
+    rows = [("`time`", "s", "from the start of the simulation")]
+    rows += [(f"`{one.name}`", one.unit, one.help) for one in columns(("NAME",), driven=True)]
+    said = "What `comprope simulate --out FILE.csv` writes; `NAME` stands for each sensor's name."
+    return _section("Columns of a simulated trip", said, ("column", "unit", ""), rows)
+
+
+def _drive() -> str:
+    tables = [
+        _quantities(f"`[{name}]`", type(getattr(Drive(), name))) for name in Drive.model_fields if name != "curve"
+    ]
+    said = (
+        "Tables of a drive file, `comprope simulate --drive FILE.toml`, and parameters of the drive's FMU. `[curve]` has `a1` to "
+        "`a19`: accelerations at twentieths of the travel time, over the largest, for trips of a free shape."
+    )
+    return "\n".join([f"## Drive file\n\n{said}\n", *tables])
+
+
+def _fmu(title: str, interface: ModelInterface) -> str:
+    said = f"`{interface.name}.fmu`. {interface.description}."
+    rows = [
+        (f"`{one.name}`", role, one.kind, one.unit if one.kind == "real" else "", one.help)
+        for role in ("input", "output")
+        for one in interface.of_role(role)
+        if "[" not in one.name or "[1]" in one.name
+    ]
+    switches = [(f"`{one.name}`", "parameter", one.kind, "", one.help) for one in interface.of_role("parameter") if "." not in one.name]
+    return _section(title, said, ("variable", "role", "type", "unit", ""), rows + switches)
+
+
+def _quantities(title: str, component: type[BaseModel]) -> str:
+    rows = [(f"`{one.name}`", one.unit, _range(one), _default(one), one.help) for one in quantities(component)]
+    return f"### {title}\n\n{_said(component)}{_table(('key', 'unit', 'accepted', 'default', ''), rows)}"
+
+
+def _said(component: type[BaseModel]) -> str:
+    return f"{(component.__doc__ or '').strip().splitlines()[0]}\n\n"
+
+
+def _range(one: Quantity) -> str:
+    return f"{one.minimum:g} … {one.maximum:g}"
+
+
+def _default(one: Quantity) -> str:
+    return "" if one.default is None else f"{one.default:g}"
+
+
+def _fields(title: str, component: type[BaseModel], level: int) -> str:
+    rows = [
+        (f"`{name}`", "required" if field.is_required() else "", field.description or "") for name, field in component.model_fields.items()
+    ]
+    return f"{'#' * level} {title}\n\n{_said(component)}{_table(('key', '', ''), rows)}"
+
+
+def _section(title: str, said: str, head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    return f"## {title}\n\n{said}\n\n{_table(head, rows)}"
+
+
+def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    titles = list(head)
+    lines = [titles, ["---"] * len(titles), *([cell.replace("|", "\\|") for cell in row] for row in rows)]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+if __name__ == "__main__":
+    PATH.write_text(text(), encoding="utf-8")
+    sys.stdout.write(f"{PATH}\n")

@@ -1,0 +1,45 @@
+"""`comprope design`: the least sheave, and where to put sensors."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, building200.")]
+DRIVE = Annotated[Path | None, typer.Option(metavar="D.toml", help="How the car moves; default the preset's own limits.")]
+LIMIT = Annotated[float, typer.Option(metavar="MM", min=1e-3, help="Largest swing that is allowed, during and after a trip.")]
+FLOORS = Annotated[int, typer.Option(metavar="N", min=2, max=60, help="Floors, evenly spaced; all trips between them count.")]
+AMPLITUDE = Annotated[float, typer.Option(metavar="MM", min=0.0, help="Sway of the building at the top landing.")]
+PERIOD = Annotated[float | None, typer.Option(metavar="S", min=0.1, help="Period of that sway; without it there is none.")]
+DURATION = Annotated[float, typer.Option(metavar="S", min=1.0, max=3600.0, help="How long the building sways.")]
+SENSORS = Annotated[int, typer.Option(metavar="N", min=1, max=20, help="How many sensors to place.")]
+SET = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.radius=0.3. Repeatable.")]
+OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for page, pictures and result.json.")]
+JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result here too.")]
+JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Processes; default one for each core.")]
+EXECUTOR = Annotated[str | None, typer.Option(metavar="dask://HOST:PORT", help="Run on a Dask cluster.")]
+
+
+def design(
+    model: MODEL,
+    drive: DRIVE = None,
+    limit: LIMIT = 10.0,
+    floors: FLOORS = 11,
+    sway_amplitude: AMPLITUDE = 50.0,
+    sway_period: PERIOD = None,
+    sway_duration: DURATION = 60.0,
+    sensors: SENSORS = 4,
+    changes: SET = None,
+    out: OUT = Path("design"),
+    json: JSON = None,
+    jobs: JOBS = None,
+    executor: EXECUTOR = None,
+) -> None:
+    """Find the least sheave weight that keeps the swing under a limit on all trips between floors and in a swaying building.
+
+    Also the best heights for sensors, and a map of where the periods of rope, sway and trips meet.
+    """
+    from ..design.job import Request, run
+
+    asked = (limit, floors, sway_amplitude, sway_period, sway_duration, sensors)
+    run(Request(model, drive, *asked, tuple(changes or ()), out, json, jobs, executor))

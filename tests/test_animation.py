@@ -1,0 +1,186 @@
+"""The page that plays a trip: what it holds is what was simulated, and a browser shows it."""
+
+import json
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comprope_system import cli
+from comprope_system.animation.camera import ARC, DOWN, MOST, POINTS, Camera, Frame, look
+from comprope_system.animation.film import Trace, film, packed, unpacked
+from comprope_system.report.page import Animation, Section, save_page
+from comprope_system.ride import record, trip_of
+
+from .virtual_lift import MODEL
+
+# A coarse rope in a low shaft: seconds matter here, not millimetres.
+QUICK = [
+    *("--set", "rope.element_length=0.2", "--set", "solver.step=0.005", "--set", "shaft.height=12"),
+    *("--from", "1", "--to", "4", "--step", "0.02", "--time", "5"),
+]
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
+
+
+@pytest.fixture(scope="module")
+def trip(tmp_path_factory):
+    """The page, its film, and the table of a short trip."""
+    folder = tmp_path_factory.mktemp("trip")
+    with pytest.raises(SystemExit) as done:
+        cli.main(["simulate", "tower50", *QUICK, "--report", str(folder / "trip.html"), "--out", str(folder / "trip.csv")])
+    assert done.value.code == 0
+    page = (folder / "trip.html").read_text(encoding="utf-8")
+    inside = re.search(r'<script type="application/json" class="film">(.*?)</script>', page, re.DOTALL)
+    return folder / "trip.html", json.loads(inside[1]), pd.read_csv(folder / "trip.csv")
+
+
+def test_the_film_shows_what_the_sensors_saw(trip):
+    _, shown, table = trip
+    ends, sides, axle = (unpacked(shown[name]) for name in ("ends", "sides", "axle"))
+    at = table.iloc[[round(k * shown["interval"] / 0.02) for k in range(shown["frames"])]]
+    assert np.allclose(ends[:, 0], at["car_position"], atol=1e-3)  # 12 m in 32767 parts, twice
+    assert np.allclose(axle, at["sheave_displacement"], atol=1e-6)
+    for k, sensor in enumerate(shown["sensors"]):
+        side = ("car", "counterweight").index(sensor["side"])
+        heights = ends[:, side, None] + unpacked(shown["down"]) * (axle[:, None] - shown["pit"] - ends[:, side, None])
+        seen = [np.interp(-sensor["height"], -h, y, left=np.nan) for h, y in zip(heights, sides[:, side], strict=True)]
+        assert np.array_equal(np.isnan(seen), at[sensor["name"]].isna())
+        # Straight between points where the sensor is a cubic: 0.2 m at a curvature of up to 0.2/m is 1 mm.
+        assert np.nanmax(np.abs(seen - at[sensor["name"]].to_numpy()), initial=0.0) < 1e-3
+        assert np.allclose(unpacked(shown["traces"][k]["value"]), 1e3 * table[sensor["name"]], atol=2e-3, equal_nan=True)
+
+
+def test_a_trip_at_rest_departs_from_rest_by_nothing(trip):
+    _, shown, table = trip
+    swing = unpacked(shown["sides"]) - unpacked(shown["rest"])
+    still = round(table["time"][table["car_velocity"] > 0].iloc[0] / shown["interval"])
+    assert np.nanmax(np.abs(swing[: still - 1])) < 1e-5
+    assert 2e-4 < np.nanmax(np.abs(swing)) < 0.05  # and once it moves it swings, by millimetres
+
+
+def test_the_report_leaves_the_numbers_as_they_are(trip, tmp_path):
+    with pytest.raises(SystemExit):
+        cli.main(["simulate", "tower50", *QUICK, "--direct", "--out", str(tmp_path / "plain.csv")])
+    assert pd.read_csv(tmp_path / "plain.csv").equals(trip[2])
+
+
+def test_the_rope_round_the_sheave_keeps_off_its_groove():
+    model, trip = MODEL, trip_of(6.0, 2.0, 1.0, 1.0, 1.0)
+    camera = []
+    record(model, trip, 3.0, lambda rope: camera.append(look(rope)) or np.zeros(1))
+    for one in camera:
+        away = np.hypot(one.arc[0], one.arc[1] - one.axle)
+        # Chords between nodes cut l^2 / (8 R) of the circle; the rope sinks in by less than 0.1 mm.
+        assert away.min() > model.sheave.radius - model.rope.element_length**2 / (8.0 * model.sheave.radius) - 1e-4
+        assert abs(one.arc[0][np.argmin(one.arc[1])]) < 0.05  # and is lowest below the axle
+    # The sheave is turned by the rope that passes it: as far as the car went, over the radius, less a little slip.
+    assert camera[-1].angle == pytest.approx((camera[-1].ends[0] - 1.0) / model.sheave.radius, rel=0.01)
+
+
+def test_packing_loses_less_than_a_line_is_wide():
+    values = np.array([[0.0, -3.0, 2.99999], [np.nan, 1e-9, np.inf]])
+    found = unpacked(packed(values))
+    assert np.array_equal(np.isnan(found), ~np.isfinite(values))
+    assert np.nanmax(np.abs(found[np.isfinite(values)] - values[np.isfinite(values)])) <= 0.5 * 3.0 / 32767
+    assert np.array_equal(unpacked(packed([0.0, 0.0])), [0.0, 0.0])
+
+
+@pytest.mark.parametrize(("step", "total", "interval"), [(0.01, 500, 0.05), (0.05, 100, 0.05), (0.1, 50, 0.1), (0.001, 600_000, 0.5)])
+def test_a_camera_takes_20_frames_a_second_and_never_too_many(monkeypatch, step, total, interval):
+    monkeypatch.setattr("comprope_system.animation.camera.look", lambda rope: rope)
+    camera = Camera(lambda: "frame", step)
+    for count in range(total + 1):
+        camera(count, total)
+    assert camera.interval == pytest.approx(interval)
+    assert len(camera.frames) == total // round(interval / step) + 1 <= MOST + 1
+
+
+def test_the_longest_page_stays_below_2_mb(tmp_path, monkeypatch):
+    """As many frames as there can be, of noise, with the traces of eight sensors."""
+    random = np.random.default_rng(1)
+    frames = [
+        Frame(random.random(2), random.random((2, POINTS)), random.random((2, ARC)), 0.0, 0.0) for _ in range(MOST + 1)
+    ]
+    monkeypatch.setattr("comprope_system.animation.film.at_rest", lambda model, frames: [one.sides for one in frames])
+    traces = [Trace(str(k), "mm", random.random(2400), random.random(2400)) for k in range(12)]
+    moving = Animation("trip", film(MODEL, frames, 0.05, traces))
+    save_page(tmp_path / "long.html", "long", "", [Section("a", "A", [moving])])
+    assert (tmp_path / "long.html").stat().st_size < 1.75e6  # 0.25 MB are left for the picture
+
+
+def test_a_page_needs_no_network(trip):
+    page = trip[0].read_text(encoding="utf-8")
+    assert set(re.findall(r"https?://[^\s\"']+", page)) == {"http://www.w3.org/2000/svg"}  # a name, not an address
+    assert "<link" not in page and "@import" not in page
+    assert set(re.findall(r'src="(.{10})', page)) == {"data:image"}
+    assert not re.search(r"<script[^>]*src=", page)
+
+
+def test_sides_are_sampled_from_end_to_axle():
+    assert DOWN[0] == 0.0 and DOWN[-1] == 1.0 and (np.diff(DOWN) > 0).all()
+
+
+# -- in a browser --------------------------------------------------------------------------------------
+
+# Without a screen a browser draws no pictures of its own accord, so a clock stands in for them.
+WATCH = """<script>
+window.wrong = [];
+window.onerror = (text) => { wrong.push(text); };
+window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);
+</script>"""
+PLAY = """<script>
+const find = (name) => document.querySelector(name), told = {};
+const rope = () => find(".shaft .rope").getAttribute("d");
+const set = (name, value, event) => { find(name).value = value; find(name).dispatchEvent(new Event(event)); };
+told.first = rope();
+told.marks = [...document.querySelectorAll(".shaft circle")].map((one) => one.getAttribute("cx"));
+set(".time", 3.0, "input");
+told.clock = find(".clock").textContent;
+told.later = rope();
+told.car = find(".now dd").textContent;
+set(".view", "shape", "change");
+told.shape = rope();
+set(".magnify", 1, "input");
+told.factor = find(".factor").textContent;
+told.traces = document.querySelectorAll(".trace").length;
+const box = find(".trace").getBoundingClientRect();
+find(".trace").dispatchEvent(new PointerEvent("pointerdown", { clientX: box.left + box.width / 2, clientY: box.top, pointerId: 1 }));
+told.picked = find(".clock").textContent;
+set(".time", 0, "input");
+find(".play").click();
+let drawn = 0;
+const wait = () => {
+  if (++drawn < 20) { requestAnimationFrame(wait); return; }
+  find(".play").click();
+  told.played = +find(".time").value;
+  told.wrong = window.wrong;
+  document.body.innerHTML = `<pre>told ${JSON.stringify(told)}</pre>`;
+};
+wait();
+</script></body>"""
+
+
+@pytest.mark.skipif(BROWSER is None, reason="there is no Chromium here")
+def test_a_browser_plays_the_page(trip, tmp_path):
+    page = trip[0].read_text(encoding="utf-8").replace("<head>", "<head>" + WATCH).replace("</body>", PLAY)
+    (tmp_path / "play.html").write_text(page, encoding="utf-8")
+    options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'user'}", "--virtual-time-budget=4000"]
+    done = subprocess.run(
+        [BROWSER, *options, "--enable-logging=stderr", "--dump-dom", (tmp_path / "play.html").as_uri()],
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    told = json.loads(re.search(r"<pre>told (\{.*?)</pre>", done.stdout, re.DOTALL)[1].replace("&gt;", ">").replace("&amp;", "&"))
+    errors = [line for line in done.stderr.splitlines() if "CONSOLE" in line and "setPointerCapture" not in line]
+    assert errors == [] and [one for one in told["wrong"] if "setPointerCapture" not in one] == []
+    assert "NaN" not in "".join(told["first"] + told["later"] + told["shape"])
+    assert len({told["first"], told["later"], told["shape"]}) == 3
+    assert told["clock"].startswith("3.00 s of 5.0 s")
+    table = trip[2]
+    assert told["car"] == f"{table['car_position'][150]:.2f} m"
+    assert told["traces"] == len(trip[1]["traces"]) == 8
+    assert told["picked"].startswith("2.5")  # the middle of the trace
+    assert told["factor"].startswith("×")
+    assert 0.1 < told["played"] < 3.0  # 20 pictures, of 1/60 s each where the browser keeps pace
