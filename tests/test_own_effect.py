@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fmpy import read_model_description
 
 from comprope import consent
 from comprope.drive.parameters import Profile
@@ -219,6 +220,21 @@ def test_the_fmu_gives_the_same_numbers_and_has_the_effect_inside(examples):
         [sys.executable, "-c", WITHOUT_COMPROPE, str(fmu)], env=environment, capture_output=True, text=True, check=False
     )
     assert result.stdout == "True\n", result.stderr
+
+
+def test_the_command_that_builds_fmus_asks_for_consent_too(tmp_path):
+    def built(*options):
+        builder, model = DOCS.parent / "build_fmu.py", EXAMPLES / "rail_joints.toml"
+        command = [sys.executable, builder, "--model", model, "--out", tmp_path, *options]
+        environment = {key: value for key, value in os.environ.items() if key != consent.VARIABLE}
+        return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+    refused = built()
+    assert refused.returncode == 2 and len(refused.stderr.splitlines()) == 1 and not list(tmp_path.iterdir())
+    assert "rail_joints.py would be run as a program" in refused.stderr
+    assert built("--allow-code").returncode == 0
+    variables = {one.name: one for one in read_model_description(str(tmp_path / "CompensationRope.fmu")).modelVariables}
+    assert float(variables["effects.rail_joints.kick"].start) == 0.005 and variables["effects.rail_joints.kick"].unit == "m"
 
 
 # -- in a diagnosis ----------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from comprope.drive.course import Course
 from comprope.drive.parameters import Profile
 from comprope.drive.trajectory import Motion, Trip, plan
 from comprope.rope.model import CompensationRope
@@ -27,7 +28,7 @@ def trip_of(distance: float, speed: float, acceleration: float, jerk: float, ori
     return plan(limits, origin, origin + distance, START)
 
 
-def ends_path(model: Base, trip: Trip, begin: float, end: float) -> Floats:
+def ends_path(model: Base, trip: Trip | Course, begin: float, end: float) -> Floats:
     """The way of both ends between two times [s], as `CompensationRope.step` takes it."""
     height, radius = model.shaft.height, model.sheave.radius
     rows = [_moments(trip.at(time), height, radius) for time in (begin, end)]
@@ -40,7 +41,7 @@ def _moments(motion: Motion, height: float, radius: float) -> Floats:
     return np.array([[-x, -v, -a], [-radius, 0.0, 0.0], [x - height, v, a], [radius, 0.0, 0.0]])
 
 
-def ride(rope: CompensationRope, trip: Trip, until: float, interval: float = INTERVAL) -> Iterator[float]:
+def ride(rope: CompensationRope, trip: Trip | Course, until: float, interval: float = INTERVAL) -> Iterator[float]:
     """Settle the rope at the trip's origin and take it along; gives the time [s] of each sample, 0 first.
 
     Raises `SimulationError` where a step cannot be saved.
@@ -53,7 +54,9 @@ def ride(rope: CompensationRope, trip: Trip, until: float, interval: float = INT
         yield (k + 1) * interval
 
 
-def record(model: Base, trip: Trip, until: float, look: Callable[[CompensationRope], Floats]) -> tuple[Floats, Floats]:
+def record(
+    model: Base, trip: Trip | Course, until: float, look: Callable[[CompensationRope], Floats]
+) -> tuple[Floats, Floats]:
     """Times (n,) and what `look` sees of the rope at each of them (n, ...)."""
     rope = CompensationRope(model)
     seen = [(time, look(rope)) for time in ride(rope, trip, until)]

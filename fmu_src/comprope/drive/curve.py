@@ -77,7 +77,7 @@ class CurveTrip:
 
 
 def curved(curve: Curve, profile: Profile, origin: float, destination: float, start_time: float) -> CurveTrip:
-    """The fastest trip of the curve's shape within the limits of `profile`, from rest at `origin` to rest at `destination` [m]."""
+    """The fastest trip of the curve's shape within the limits of `profile`, from rest to rest between two heights [m]."""
     shape, distance = shape_of(curve), abs(destination - origin)
     return CurveTrip(start_time, origin, destination, _duration(shape, profile, distance), shape)
 
@@ -107,7 +107,9 @@ def _duration(shape: Shape, profile: Profile, distance: float) -> float:
 
 def _top(shape: Shape) -> float:
     """The largest speed for unit largest acceleration and duration, also where it is between two knots."""
-    between = (u + b**2 / (b - c) / 2.0 / PARTS for u, (b, c) in zip(_speeds(shape), pairwise(shape), strict=False) if b > 0.0 > c)
+    between = (
+        u + b**2 / (b - c) / 2.0 / PARTS for u, (b, c) in zip(_speeds(shape), pairwise(shape), strict=False) if b > 0.0 > c
+    )
     return max(*_speeds(shape), *between)
 
 

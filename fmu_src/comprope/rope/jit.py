@@ -39,7 +39,7 @@ def _room(context, size):
     return pointer(numba.int64), code
 
 
-room = np.zeros if PURE else _room
+room: Callable[..., Any] = np.zeros if PURE else _room
 
 
 INTEGERS = {"n", "m", "steps", "state_size", "effects", "side", "directions", "blocks", "parameters", "sensors"}

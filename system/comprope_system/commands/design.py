@@ -12,8 +12,13 @@ FLOORS = Annotated[int, typer.Option(metavar="N", min=2, max=60, help="Floors, e
 AMPLITUDE = Annotated[float, typer.Option(metavar="MM", min=0.0, help="Sway of the building at the top landing.")]
 PERIOD = Annotated[float | None, typer.Option(metavar="S", min=0.1, help="Period of that sway; without it there is none.")]
 DURATION = Annotated[float, typer.Option(metavar="S", min=1.0, max=3600.0, help="How long the building sways.")]
+SWAY_LIMIT = Annotated[
+    float | None, typer.Option(metavar="MM", min=1e-3, help="Largest swing in the sway; default: told, no limit.")
+]
 SENSORS = Annotated[int, typer.Option(metavar="N", min=1, max=20, help="How many sensors to place.")]
-SET = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.radius=0.3. Repeatable.")]
+SET = Annotated[
+    list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.radius=0.3. Repeatable.")
+]
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for page, pictures and result.json.")]
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result here too.")]
 JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Processes; default one for each core.")]
@@ -28,6 +33,7 @@ def design(
     sway_amplitude: AMPLITUDE = 50.0,
     sway_period: PERIOD = None,
     sway_duration: DURATION = 60.0,
+    sway_limit: SWAY_LIMIT = None,
     sensors: SENSORS = 4,
     changes: SET = None,
     out: OUT = Path("design"),
@@ -41,5 +47,5 @@ def design(
     """
     from ..design.job import Request, run
 
-    asked = (limit, floors, sway_amplitude, sway_period, sway_duration, sensors)
+    asked = (limit, floors, sway_amplitude, sway_period, sway_duration, sway_limit, sensors)
     run(Request(model, drive, *asked, tuple(changes or ()), out, json, jobs, executor))

@@ -6,13 +6,23 @@ from typing import Annotated
 import typer
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, building200.")]
-DRIVE = Annotated[Path | None, typer.Option(metavar="D.toml", help="Present drive; its limits are kept. Default the preset's own.")]
-TRIP = Annotated[list[str] | None, typer.Option(metavar="FROM:TO", help="A trip in metres, as 0:22. Repeatable; default six trips.")]
+DRIVE = Annotated[
+    Path | None, typer.Option(metavar="D.toml", help="Present drive; its limits are kept. Default the preset's own.")
+]
+TRIP = Annotated[
+    list[str] | None, typer.Option(metavar="FROM:TO", help="A trip in metres, as 0:22. Repeatable; default six trips.")
+]
 TIMES = Annotated[str, typer.Option(metavar="F,F,...", help="Travel times of the front, over the present one.")]
 EXTRA = Annotated[float, typer.Option(metavar="SHARE", min=0.0, max=2.0, help="Travel time that the chosen controller may add.")]
-LIMIT = Annotated[float | None, typer.Option(metavar="MM", min=1e-3, help="Instead of --extra: the fastest trip that swings less.")]
-WEIGHT = Annotated[float, typer.Option(metavar="W", min=0.0, max=1.0, help="What the swing after the trip counts beside that during it.")]
-SPREAD = Annotated[float, typer.Option(metavar="SHARE", min=0.0, max=0.5, help="Be prepared for a sheave so much lighter or heavier.")]
+LIMIT = Annotated[
+    float | None, typer.Option(metavar="MM", min=1e-3, help="Instead of --extra: the fastest trip that swings less.")
+]
+WEIGHT = Annotated[
+    float, typer.Option(metavar="W", min=0.0, max=1.0, help="What the swing after the trip counts beside that during it.")
+]
+SPREAD = Annotated[
+    float, typer.Option(metavar="SHARE", min=0.0, max=0.5, help="Be prepared for a sheave so much lighter or heavier.")
+]
 SET = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.mass=90. Repeatable.")]
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for page, pictures, result.json and *.drive.toml.")]
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result here too.")]
@@ -35,7 +45,7 @@ def tune(
     jobs: JOBS = None,
     executor: EXECUTOR = None,
 ) -> None:
-    """Choose profile, shaper and servo gains so that the rope swings least for a travel time, or the trip takes least for a swing.
+    """Choose profile, shaper and servo gains: the least swing of the rope for a travel time, or the least time for a swing.
 
     Speed, acceleration and jerk stay within the present drive's limits. Found on a small linear rope, judged on the full model,
     and installed as FMUs. An interrupted run goes on where it stopped when it is started again with the same folder.

@@ -23,22 +23,22 @@ from ..report.page import save_page, save_pictures
 from ..studies.design import TOLERANCE
 from ..sweep import sweep, values
 from ..trip_job import assignments
-from ..tuning.measure import tail
+from ..tuning.measure import SIDES, tail
 from . import page
 from .sensors import choose
 from .sway import Sway, parked
-from .trips import envelope, floors, full_of_mass, of_mass, pairs, rope_of_mass, small_case
+from .trips import envelopes, floors, full_of_mass, of_mass, pairs, rope_of_mass, small_case
 
 PAGE, RESULT, STORE = "design.html", "result.json", "runs.jsonl"
 MASSES = np.geomspace(0.35, 8.0, 22)  # of the model's own sheave
 BINS = 60  # heights that a sensor may have, on each side
-WORST = 60  # trips that sensors are chosen for: those that swing most
+WORST = 60  # trips that sensors are chosen for: those that swing most, during and after
 TRIES = 12  # of a full model's search for the mass
 
 
 @dataclass(frozen=True)
 class Request:
-    """What a user asks for; limit and the sway's amplitude are in mm, its period and duration in s."""
+    """What a user asks for; limits and the sway's amplitude are in mm, its period and duration in s."""
 
     model: str
     drive: Path | None
@@ -47,6 +47,7 @@ class Request:
     sway_amplitude: float
     sway_period: float | None
     sway_duration: float
+    sway_limit: float | None
     sensors: int
     changes: tuple[str, ...]
     out: Path
@@ -64,19 +65,26 @@ def run(request: Request) -> dict[str, Any]:
     """Design, write all files and print a summary; raises `InputError` for bad input or a limit that no sheave keeps."""
     for path in (request.out / PAGE, *([request.json] if request.json else [])):
         require_writable(path)
-    model = with_changes(load(model_path(request.model)), assignments(request.changes), "--set").model_copy(update={"sensors": ()})
-    profile = load_drive(request.drive or drive_path(request.model), {"shaft": {"height": model.shaft.height}}).profile
+    model = with_changes(load(model_path(request.model)), assignments(request.changes), "--set").model_copy(
+        update={"sensors": ()}
+    )
+    height = model.shaft.height
+    tables = {"shaft": {"height": height}, "trip": {"start_position": 0.0, "destination": height}}
+    profile = load_drive(request.drive or drive_path(request.model), tables).profile
     sway = request.sway
     base: dict[str, Any] = {"model": as_table(model), "profile": profile.model_dump(), "floors": request.floors}
     base["sway"] = sway.__dict__ if sway else None
     with workers(request.jobs, request.executor) as executor:
         cases = [base | {"mass": float(mass)} for mass in MASSES * model.sheave.mass if _wraps(model, float(mass))]
         scanned = values(sweep(of_mass, cases, executor, request.out / STORE, "masses"))
-        mass = _least(scanned, 1e-3 * request.limit)
+        mass = _least(scanned, "swing", "--limit", request.limit)
+        if sway and request.sway_limit is not None:
+            mass = max(mass, _least(scanned, "sway", "--sway-limit", request.sway_limit))
         least, runs = _on_full_model(base, scanned, mass, 1e-3 * request.limit, executor, request.out / STORE)
     chosen = rope_of_mass(model, least)
     result = {
-        "model": request.model, "limit": 1e-3 * request.limit, "floors": request.floors, "sway": base["sway"],
+        "model": request.model, "limit": 1e-3 * request.limit, "sway_limit": request.sway_limit,
+        "floors": request.floors, "sway": base["sway"],
         "own_mass": model.sheave.mass, "mass_small": mass, "mass": least, "scanned": scanned, "full": runs,
         "sensors": _sensors(chosen, profile, request, sway),
     }  # fmt: skip
@@ -90,9 +98,9 @@ def _wraps(model: RopeModel, mass: float) -> bool:
     return weight > model.rope.bending_stiffness / model.sheave.radius**2
 
 
-def _least(scanned: Sequence[Mapping[str, Any]], limit: float) -> float:
-    """The least mass from which on trips and sway keep the limit at every heavier one scanned, between scans by power law."""
-    worst = np.array([max(one["swing"], one["sway"]) for one in scanned])
+def _least(scanned: Sequence[Mapping[str, Any]], what: str, option: str, limit: float) -> float:
+    """The least mass from which on a limit [mm] is kept by every heavier one scanned, between two of them by a power law."""
+    worst = 1e3 * np.array([one[what] for one in scanned])
     masses = np.array([one["mass"] for one in scanned])
     above = np.flatnonzero(worst > limit)
     if not above.size:
@@ -100,7 +108,7 @@ def _least(scanned: Sequence[Mapping[str, Any]], limit: float) -> float:
     k = int(above[-1])
     if k + 1 == len(masses):
         raise InputError(
-            f"--limit {1e3 * limit:g}: {1e3 * worst[-1]:.2f} mm or more is accepted; that is the swing even with a sheave of "
+            f"{option} {limit:g}: {worst[-1]:.2f} mm or more is accepted; that is the swing even with a sheave of "
             f"{masses[-1]:.0f} kg"
         )
     share = np.log(worst[k] / limit) / np.log(worst[k] / worst[k + 1])
@@ -108,7 +116,12 @@ def _least(scanned: Sequence[Mapping[str, Any]], limit: float) -> float:
 
 
 def _on_full_model(
-    base: Mapping[str, Any], scanned: Sequence[Mapping[str, Any]], mass: float, limit: float, executor: Executor | None, store: Path
+    base: Mapping[str, Any],
+    scanned: Sequence[Mapping[str, Any]],
+    mass: float,
+    limit: float,
+    executor: Executor | None,
+    store: Path,
 ) -> tuple[float, list[list[float]]]:
     """The least mass at which the worst trip keeps the limit on the full model, from the small rope's up; and all runs."""
     near = min(scanned, key=lambda one: abs(one["mass"] - mass))
@@ -119,9 +132,14 @@ def _on_full_model(
         runs.append([at, values(sweep(full_of_mass, [case], executor, store, "full model"))[0]])
         return float(runs[-1][1])
 
-    high, low = mass, mass
-    while (now := swing(high)) > limit and len(runs) < TRIES:
+    high, low, heaviest = mass, mass, scanned[-1]["mass"]
+    while (now := swing(high)) > limit:
         low, high = high, high * max(1.01, now / limit)
+        if high > heaviest:
+            raise InputError(
+                f"--limit {1e3 * limit:g}: {1e3 * now:.2f} mm or more is accepted; that is the swing on the full model with a "
+                f"sheave of {low:.0f} kg"
+            )
     while high - low > TOLERANCE * high and len(runs) < TRIES:
         middle = (low * high) ** 0.5
         low, high = (low, middle) if swing(middle) <= limit else (middle, high)
@@ -132,16 +150,16 @@ def _sensors(model: RopeModel, profile: Profile, request: Request, sway: Sway | 
     """The heights [m] from which a few sensors see most of every large swing."""
     small, heights = small_case(model), floors(model.shaft.height, request.floors)
     edges = np.linspace(1.5 - model.shaft.pit, model.shaft.height, BINS + 1)
-    occasions = []
+    occasions: tuple[list[Any], list[Any]] = ([], [])  # during and after trips
     for trip in pairs(heights):
-        seen = envelope(small, profile, trip, tail(model, trip[1]), edges)
-        occasions += [np.concatenate([seen["car"], seen["counterweight"]]), np.concatenate([seen["counterweight"], seen["car"]])]
-    occasions = sorted(occasions, key=lambda one: -float(one.max()))[: 2 * WORST]
-    middles, found = 0.5 * (edges[1:] + edges[:-1]), choose(np.array(occasions), request.sensors)
+        for kind, seen in zip(occasions, envelopes(small, profile, trip, tail(model, trip[1]), edges), strict=True):
+            kind += [np.concatenate([seen[one], seen[other]]) for one, other in (tuple(SIDES), tuple(SIDES)[::-1])]
+    largest = [one for kind in occasions for one in sorted(kind, key=lambda each: -float(each.max()))[: 2 * WORST]]
+    middles, found = 0.5 * (edges[1:] + edges[:-1]), choose(np.array(largest), request.sensors)
     places = [{"side": "car" if k < BINS else "counterweight", "height": float(middles[k % BINS])} for k in found.places]
     profile_of = parked(small, sway, float(heights[0])) if sway else {}
     return {
-        "places": places, "share": found.share, "heights": middles.tolist(), "seen": np.max(occasions, axis=0).tolist(),
+        "places": places, "share": found.share, "heights": middles.tolist(), "seen": np.max(largest, axis=0).tolist(),
         "sway_seen": {side: one.tolist() for side, one in profile_of.items()},
     }  # fmt: skip
 

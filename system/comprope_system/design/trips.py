@@ -80,14 +80,14 @@ def full_of_mass(case: Mapping[str, Any]) -> float:
     return max(swing.during, swing.after)
 
 
-def envelope(small: Case, profile: Profile, trip: tuple[float, float], watched: float, edges: Floats) -> dict[str, Floats]:
-    """The farthest departure [m] of a trip in each interval of heights above the bottom landing between `edges`, by side."""
+def envelopes(small: Case, profile: Profile, trip: tuple[float, float], watched: float, edges: Floats) -> list[dict[str, Floats]]:
+    """The farthest departures [m] on a trip, and those after it, in each interval of heights between `edges` [m], by side."""
     way = course(profile, trip)
     moved = moves(way, way.end_time + watched, DT)
-    found = {}
+    whole, after = dict[str, Floats](), dict[str, Floats]()
     for side, (length, departure) in displacements(small, moved).items():
-        heights = length[:, None] * PLACES - small.pit
-        bins = np.clip(np.digitize(heights, edges) - 1, 0, len(edges) - 2)
-        found[side] = np.zeros(len(edges) - 1)
-        np.maximum.at(found[side], bins.ravel(), np.abs(departure).ravel())
-    return found
+        bins = np.clip(np.digitize(length[:, None] * PLACES - small.pit, edges) - 1, 0, len(edges) - 2)
+        for found, times in ((whole, moved.time >= 0.0), (after, moved.time > way.end_time)):
+            found[side] = np.zeros(len(edges) - 1)
+            np.maximum.at(found[side], bins[times].ravel(), np.abs(departure[times]).ravel())
+    return [whole, after]

@@ -40,7 +40,7 @@ class Hoist:
         return float(2.0 * np.pi / min(np.interp(car, self.heights, one) for one in self.frequency))
 
     def ends(self, moved: Moves) -> tuple[Floats, Floats]:
-        """What the bounce adds to the motion of car and of counterweight: way, speed and acceleration (3, n) each, up positive."""
+        """What the bounce adds to the motion of car and of counterweight: way, speed, acceleration (3, n) each, up positive."""
         added = []
         for k, sign in enumerate((1.0, -1.0)):
             w = np.interp(moved.position, self.heights, self.frequency[k])
@@ -71,7 +71,7 @@ def _bounces(drive: Drive, height: float) -> Floats:
     return np.array([np.abs(nearest), -np.real(nearest) / np.abs(nearest)])
 
 
-@numba.njit(cache=True)  # type: ignore[untyped-decorator]
+@numba.njit(cache=True)
 def _bounced(dt, a, w, z):  # type: ignore[no-untyped-def]
     """d, d' and d'' (3, n) by the implicit midpoint rule."""
     found, h = np.zeros((3, len(a))), 0.5 * dt

@@ -61,5 +61,3 @@ def least_time(drive: Drive, way: Way, course: Course, period: float, share: flo
 def too_short(time: float, period: float) -> float:
     """The share of a blow's swing that a trip of `time` [s] leaves at least, limits or none; 0 from half a period on."""
     return max(0.0, float(np.cos(pi * time / period))) if time < 0.5 * period else 0.0
-
-

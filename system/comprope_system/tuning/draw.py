@@ -35,7 +35,7 @@ def draw_fronts(trips: Sequence[Mapping[str, Any]]) -> Any:
             for name, key, colour in LINES[1:]:
                 points = [(point[key]["time"], 1e3 * point[key]["full"][column]) for point in trip["points"]]
                 one.plot(*zip(*points, strict=True), "o-", color=colour, label=name, markersize=3.5) if points else None
-            one.set_ylim(bottom=0.0)
+            one.set_ylim(0.0, 1.12 * max(one.get_ylim()[1], 1e3 * present["full"][column]))
             label(one, "travel time [s]", f"{what} [mm]", f"{trip['origin']:g} to {trip['destination']:g} m")
     legend(axes[0])
     return figure

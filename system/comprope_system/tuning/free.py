@@ -151,7 +151,9 @@ def _feasible(a: Floats, limits: Limits, way: Way, most: float) -> Floats | None
     """The accelerations nearest to `a` within the limits that stop the car and cover the distance; still at both ends."""
     k = PARTS - 1
     eye, reach = np.eye(k), (1.0 - MARGIN) * most
-    rows = np.vstack([np.hstack([eye, -eye]), np.hstack([-eye, -eye]), np.hstack([limits.rows[:, 1:-1], 0.0 * limits.rows[:, 1:-1]])])
+    rows = np.vstack(
+        [np.hstack([eye, -eye]), np.hstack([-eye, -eye]), np.hstack([limits.rows[:, 1:-1], 0.0 * limits.rows[:, 1:-1]])]
+    )
     right = np.concatenate([a[1:-1], -a[1:-1], limits.most])
     equal = np.hstack([np.array([limits.stop, limits.way])[:, 1:-1], np.zeros((2, k))])
     cost = np.concatenate([np.zeros(k), np.ones(k)])
@@ -188,13 +190,17 @@ def _columns(count: int, kind: int) -> Floats:
 def _as_drive(drive: Drive, way: Way, time: float, smoothing: float, a: Floats) -> Drive:
     """The drive with the curve; its acceleration limit is the curve's largest, so that the way takes the time asked for."""
     shares = a / np.abs(a).max()
-    shares[1:-1] -= shares[1:-1].mean()
+    speeds = np.maximum(np.cumsum(shares[1:-1] - shares[1:-1].mean()), 0.0)  # the program keeps 0 but for its tolerance
+    speeds[-1] = 0.0
+    shares[1:-1] = np.diff(speeds, prepend=0.0)
     shares /= np.abs(shares).max()
     shares[np.abs(shares) < 1e-12] = 0.0
     curve = Curve(**{f"a{k}": float(shares[k]) for k in range(1, PARTS)})
     made = drive.model_copy(update={"curve": curve})
     trip = course_of(made, way).trip
-    needed = np.abs(np.array(trip.knots[0])).max() * (trip.duration / (time - smoothing)) ** 2 if isinstance(trip, CurveTrip) else 0.0
+    needed = (
+        np.abs(np.array(trip.knots[0])).max() * (trip.duration / (time - smoothing)) ** 2 if isinstance(trip, CurveTrip) else 0.0
+    )
     own = drive.profile
     profile = own.model_copy(update={"acceleration": min(float(needed), own.acceleration), "smoothing": smoothing})
     return made.model_copy(update={"profile": profile, "shaper": drive.shaper.model_copy(update={"impulses": 1.0})})

@@ -29,7 +29,8 @@ from .families import Way
 from .joint import Joint, joint, told
 from .servo import Gains, best_gains, gains_of
 from .statespace import as_json, rope_model
-from .trip import CHOSEN, Task, as_case, drive_of, installed_case, periods, tuned_trip
+from .task import CHOSEN, Task, as_case, periods
+from .trip import drive_of, installed_case, tuned_trip
 
 PAGE, RESULT, STORE, MODELS, CONTROLLER = "tuning.html", "result.json", "runs.jsonl", "rope_models.json", "controller.drive.toml"
 TRIPS = ((0.0, 0.04), (0.0, 0.11), (0.0, 0.3), (0.0, 1.0), (1.0, 0.85), (0.5, 0.6))  # of the shaft's height
@@ -97,7 +98,9 @@ def read_trips(texts: Sequence[str], height: float) -> list[tuple[float, float]]
         except ValueError:
             trip = math.nan, math.nan
         if not all(0.0 <= one <= height for one in trip) or abs(trip[0] - trip[1]) < 0.5:
-            problems.append(f"--trip {text}: two heights FROM:TO from 0 to {height:g} m, half a metre apart or more, are accepted")
+            problems.append(
+                f"--trip {text}: two heights FROM:TO from 0 to {height:g} m, half a metre apart or more, are accepted"
+            )
         found.append(trip)
     if problems:
         raise InputError("\n".join(problems))
@@ -166,7 +169,6 @@ def save_drive(path: Path, drive: Drive, heading: str) -> None:
         del table["curve"]
     with whole_file(path) as temporary:
         temporary.write_text(f"# {heading}\n\n{tomli_w.dumps(table)}", encoding="utf-8", newline="\n")
-
 
 
 def _heading(trip: Mapping[str, Any], point: Mapping[str, Any]) -> str:

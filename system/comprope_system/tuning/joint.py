@@ -11,8 +11,8 @@ from comprope.drive.parameters import Drive
 from .families import KINDS, course_of
 from .free import Goal
 from .measure import Swing, small_swing
-from .search import Search
-from .trip import Task
+from .search import Candidate, Search
+from .task import Task
 
 KEPT = 1.0  # of its present swing: what no trip should pass
 
@@ -47,7 +47,8 @@ def joint(tasks: Sequence[Task], extra: float) -> Joint | None:
     def cost(swings: list[Swing]) -> float:
         return float(np.mean([goal.cost(one) for goal, one in zip(goals, swings, strict=True)]))
 
-    search, found = Search(tasks[0].drive, [task.way for task in tasks], time, judge, cost), []
+    search = Search(tasks[0].drive, [task.way for task in tasks], time, judge, cost)
+    found: list[Candidate] = []
     for kind in KINDS:
         found += search.best(kind, [found[0].shares] if found else [])
     if not found:

@@ -50,7 +50,7 @@ class Case:
         return self.pit + (car if side == "car" else self.height - car)
 
     def ends(self, moved: Moves) -> dict[str, Floats]:
-        """Length [m], speed and acceleration of the end, up positive, and what presses the rope on the groove [N] (4, n), by side."""
+        """Length [m], speed and acceleration of the end, up positive, and the press on the groove [N] (4, n), by side."""
         bounces = self.hoist.ends(moved) if self.hoist else (0.0, 0.0)
         ends = [
             np.array([self.length(side, moved.position), sign * moved.speed, sign * moved.acceleration]) + added

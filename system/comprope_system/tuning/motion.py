@@ -26,18 +26,19 @@ class Moves:
     @property
     def time(self) -> Floats:
         """The times [s]."""
-        return self.dt * np.arange(len(self.position))
+        return np.asarray(self.dt * np.arange(len(self.position)), float)
 
 
 def moves(course: Course, until: float, dt: float) -> Moves:
     """The course from time zero to `until` [s] or a little longer."""
-    time = dt * np.arange(int(np.ceil(until / dt)) + 1)
+    time = np.asarray(dt * np.arange(int(np.ceil(until / dt)) + 1), float)
     total = np.zeros((3, len(time)))
     for delay, share in course.impulses:
         total += share * _smoothed(course, time - delay)
     over = time >= course.end_time
     total[1:, over] = 0.0
-    return Moves(dt, course.origin + np.where(over, course.destination - course.origin, total[0]), total[1], total[2])
+    way = np.where(over, course.destination - course.origin, total[0])
+    return Moves(dt, np.asarray(course.origin + way, float), total[1], total[2])
 
 
 def _smoothed(course: Course, time: Floats) -> Floats:

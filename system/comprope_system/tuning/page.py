@@ -9,7 +9,8 @@ from .draw import draw_fronts, draw_installed, draw_servo
 TITLE = "Controller tuned against the rope"
 LEAD = (
     "Swing is the departure of either side of the rope from its shape at rest with the car where it is: the farthest during the "
-    "trip, and half the range after it. Candidates are found on a small linear rope and judged on the full model with drive and servo."
+    "trip, and half the range after it. Candidates are found on a small linear rope and judged on the "
+    "full model with drive and servo."
 )
 Result = Mapping[str, Any]
 
@@ -101,7 +102,8 @@ def _quiet(result: Result) -> list[Block]:
             left = saved["full"][1] / trip["present"]["full"][1] if saved["full"] else None
             cells += [
                 f"+{saved['time'] - present:.2f}" if saved["time"] else "none found",
-                f"{100.0 * (1.0 - left):.0f}" if left is not None else "", f"+{max(least - present, 0.0):.2f}" if least else "none",
+                f"{100.0 * (1.0 - left):.0f}" if left is not None else "",
+                f"+{max(least - present, 0.0):.2f}" if least else "none",
             ]  # fmt: skip
         rows.append((_name(trip), f"{present:.2f}", f"{trip['period']:.2f}", *cells))
         if trip["bound"]["too_short"] > 0.0:
@@ -111,8 +113,10 @@ def _quiet(result: Result) -> list[Block]:
         "less, full model [%]", "bound [s]",
     )  # fmt: skip
     text = (
-        "Extra travel time for half and for a fifth of the present swing after the trip. The bound is the extra time of the fastest "
-        "acceleration profile whatsoever within the limits whose spectrum at the slowest period, held fixed, is so small; the rope's "
+        "Extra travel time for half and for a fifth of the present swing after the trip. The bound is the "
+        "extra time of the fastest "
+        "acceleration profile whatsoever within the limits whose spectrum at the slowest period, held fixed, "
+        "is so small; the rope's "
         "period changes on the way and its other swings count too, so that the rope can need more or less."
     )
     told = f"Shorter than half a period, so that no profile hides the trip from the rope: {', '.join(short)}." if short else (
@@ -147,8 +151,10 @@ def _servo(result: Result) -> list[Block]:
         "damping of the slower bounce",
     )  # fmt: skip
     text = (
-        "Car and counterweight bounce on their hoist ropes, and the bounce swings the rope where a side has a period near it. The "
-        "gains chosen damp it most, in the mean over the car's positions, among those that keep a gain margin of 2, a phase margin "
+        "Car and counterweight bounce on their hoist ropes, and the bounce swings the rope where a side has "
+        "a period near it. The "
+        "gains chosen damp it most, in the mean over the car's positions, among those that keep a gain "
+        "margin of 2, a phase margin "
         "of 45° and a delay margin of 20 ms at bottom, middle and top."
     )
     return [text, Table(head, rows), Picture("servo", draw_servo(result["servo"]))]
@@ -162,7 +168,9 @@ def _controller(result: Result) -> list[Block]:
     for trip, time, full in zip(result["trips"], found["times"], found["full"], strict=True):
         rows.append((_name(trip), f"{trip['present']['time']:.2f}", f"{time:.2f}", _pair(trip["present"]["full"]), _pair(full)))
     head = ("trip", "present [s]", "tuned [s]", "present: during/after [mm]", "tuned: during/after [mm]")
-    text = f"controller.drive.toml: {found['kind']}, with {100.0 * result['extra']:.0f} % more travel time over all trips together."
+    text = (
+        f"controller.drive.toml: {found['kind']}, with {100.0 * result['extra']:.0f} % more travel time over all trips together."
+    )
     return [text, Table(head, rows)]
 
 
@@ -182,7 +190,8 @@ def _search(result: Result) -> list[Block]:
         rows.append((_name(trip), _pair(one["small"]), _pair(one["full"])))
     text = (
         f"Full model against small rope over all {len(found)} swings judged: {100 * middle:+.0f} % in the middle, from "
-        f"{100 * found[0]:+.0f} to {100 * found[-1]:+.0f} %. rope_models.json holds the rope as state-space models of python-control "
+        f"{100 * found[0]:+.0f} to {100 * found[-1]:+.0f} %. rope_models.json holds the rope as state-space "
+        "models of python-control "
         "at seven heights of the car."
     )
     return [text, Table(("present trip", "small rope: during/after [mm]", "full model"), rows)]

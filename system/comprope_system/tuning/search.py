@@ -1,6 +1,6 @@
 """The search: quasi-random shares of a kind of trip, then the best of them improved, all on the small rope."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -89,10 +89,10 @@ def _samples(keys: tuple[str, ...]) -> Floats:
     return np.asarray(low + (high - low) * points)
 
 
-def _unlike(candidates: "Sequence[Candidate] | object", keys: tuple[str, ...], count: int) -> list[Candidate]:
+def _unlike(candidates: Iterable[Candidate], keys: tuple[str, ...], count: int) -> list[Candidate]:
     """The cheapest candidates, each with some share that differs from those before it."""
     found: list[Candidate] = []
-    for one in sorted(candidates, key=lambda each: each.cost):  # type: ignore[call-overload]
+    for one in sorted(candidates, key=lambda each: each.cost):
         if all(any(abs(one.shares[key] - other.shares[key]) > SAME for key in keys) for other in found):
             found.append(one)
         if len(found) == count:

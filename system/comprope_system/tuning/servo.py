@@ -51,16 +51,23 @@ def gains_of(drive: Drive) -> Gains:
 def best_gains(drive: Drive) -> Gains:
     """The gains near the present ones that damp the bounces most within the margins; the present ones where none are better."""
     present = gains_of(drive)
-    found = [present]
-    for position, speed, damping in product(POSITION, SPEED, DAMPING):
-        own = drive.servo
-        gains = {"position_bandwidth": position * own.position_bandwidth, "speed_bandwidth": speed * own.speed_bandwidth}
-        if gains["position_bandwidth"] > 0.25 * gains["speed_bandwidth"] or gains["speed_bandwidth"] < 0.5:
-            continue
-        one = drive.model_copy(update={"servo": own.model_copy(update=gains | {"speed_damping": damping})})
+    for one in sorted(_near(drive), key=_slow_damping, reverse=True):
+        if present.kept and _slow_damping(one) <= present.bounce:
+            return present
         if not unstable_positions(one) and (made := gains_of(one)).kept:
-            found.append(made)
-    return max(found, key=lambda one: one.bounce)
+            return made
+    return present
+
+
+def _near(drive: Drive) -> list[Drive]:
+    """The drive with other gains, position control well below speed control."""
+    own, found = drive.servo, []
+    for position, speed, damping in product(POSITION, SPEED, DAMPING):
+        gains = {"position_bandwidth": position * own.position_bandwidth, "speed_bandwidth": speed * own.speed_bandwidth}
+        if gains["position_bandwidth"] <= 0.25 * gains["speed_bandwidth"]:
+            servo = own.model_copy(update=gains | {"speed_damping": damping})
+            found.append(Drive(shaft=drive.shaft, plant=drive.plant, servo=servo, trip=FirstTrip(destination=0.0)))
+    return found
 
 
 def _slow_damping(drive: Drive) -> float:

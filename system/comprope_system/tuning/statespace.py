@@ -27,10 +27,10 @@ def rope_model(case: Case, car: float) -> control.StateSpace:
     parts = [_side(case, side, car) for side in SIDES]
     joined = control.append(*parts)
     both = control.StateSpace(joined.A, joined.B @ np.vstack([np.eye(2), np.eye(2)]), joined.C, np.zeros((len(joined.C), 2)))
-    outputs = [f"{side}_{share:g}" for side in SIDES for share in OUTPUTS]
+    outputs = [f"{side}_{100 * share:.0f}_percent" for side in SIDES for share in OUTPUTS]
     states = [f"{side}_{name}" for side in SIDES for name in _states()]
     return control.ss(
-        both.A, both.B, both.C, both.D, inputs=["car_speed", "car_acceleration"], outputs=outputs, states=states, name=f"car_{car:g}"
+        both.A, both.B, both.C, both.D, inputs=["car_speed", "car_acceleration"], outputs=outputs, states=states, name="rope"
     )
 
 

@@ -11,12 +11,12 @@ depend on the speed. The rope's stiffness holds it off the axle's vertical by
 
     b = EI / (2 r N) (g0 + g1 v + g2 v^2 + g3 sgn v)
 
-where g0 is near 1, g1 about -D / (EI sqrt(EI / N)) for a bending damping D, which makes rope that runs off the sheave straighten
-late, and g3 nought but for bending hysteresis; `calibrate.py` measures them on the full model. So what swings the rope is b,
-which follows speed and acceleration, and the tension, which changes its shape. With
+where g0 is near 1, g1 about -D / (EI sqrt(EI / N)) for a bending damping D, which makes rope that runs off the sheave
+straighten late, and g3 nought but for bending hysteresis; `calibrate.py` measures them on the full model. So what swings the
+rope is b, which follows speed and acceleration, and the tension, which changes its shape. With
 y = (1 - xi) b + sum of q_k sqrt(2) sin(k pi xi) the weak form gives, per rho L, with constant matrices over xi
 
-    q'' + (2 (v/L) G + c/rho) q' + (N/(rho L^2) K + (v/L)^2 (K - S) + (g + v')/L H + ((v'/L) + (c/rho)(v/L)) G) q = - the same of b
+    q'' + (2 (v/L) G + c/rho) q' + (N/(rho L^2) K + (v/L)^2 (K - S) + (g + v')/L H + (v' + c/rho v)/L G) q = - the same of b
 
 Left out: the sheave's bounce, tension from swinging, bending away from the sheave, effects other than external damping.
 Unlike the full model it holds only where the rope wraps the sheave, N r^2 > EI / 2.
@@ -43,7 +43,9 @@ _QUADRATURE = 64
 @dataclass(frozen=True)
 class Rope:
     """What one side of a rope is: mass per length [kg/m], weight on the groove of a side [N], the pull that turns the sheave
-    over acceleration [kg], the same that lifts it [kg], bending stiffness [N m2], radius [m], damping over mass [1/s], gravity [m/s2]; `held`: g0 ... g3."""
+    over acceleration [kg], the same that lifts it [kg], bending stiffness [N m2], radius [m], damping over mass [1/s],
+    gravity [m/s2]; `held`: g0 ... g3.
+    """
 
     mass_per_length: float
     weight: float
@@ -56,9 +58,13 @@ class Rope:
     held: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     def offset_at(self, press: Floats, speed: Floats) -> Floats:
-        """How far outward the rope stands off at the axle's height [m], pressed by N = `press` [N], running up at `speed` [m/s]."""
+        """How far outward the rope stands off at the axle's height [m], pressed by `press` [N], running up at `speed` [m/s]."""
         g0, g1, g2, g3 = self.held
-        return self.bending_stiffness / (2.0 * self.radius * press) * (g0 + g1 * speed + g2 * speed**2 + g3 * np.tanh(speed / STARTS))
+        return (
+            self.bending_stiffness
+            / (2.0 * self.radius * press)
+            * (g0 + g1 * speed + g2 * speed**2 + g3 * np.tanh(speed / STARTS))
+        )
 
     @property
     def offset(self) -> float:
@@ -134,7 +140,9 @@ def at_rest(rope: Rope, length: Floats, xi: Floats) -> Floats:
     return np.asarray(rope.offset * (1.0 - np.log1p(slack * xi) / np.log1p(slack)))
 
 
-def sway(rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, press: Floats, count: int = SHAPES) -> Floats:
+def sway(
+    rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, press: Floats, count: int = SHAPES
+) -> Floats:
     """Amplitudes (m, 1 + k): b and q_1 ... q_k at times `dt` [s] apart, from rest.
 
     `length` [m], `speed` and `acceleration` of the end, up positive [m/s, m/s2], `press` [N] on the groove, each (m,).
@@ -146,7 +154,7 @@ def sway(rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Flo
     return np.hstack([b[:, None], q])
 
 
-@numba.njit(cache=True)  # type: ignore[untyped-decorator]
+@numba.njit(cache=True)
 def _march(dt, L, v, a, press, b, g, c, G, S, K, H, lift, mass):  # type: ignore[no-untyped-def]
     """q (m, k) by the implicit midpoint rule on q and p = q' + mass b', so that b need not be smooth."""
     k, h = G.shape[0], 0.5 * dt
@@ -161,7 +169,7 @@ def _march(dt, L, v, a, press, b, g, c, G, S, K, H, lift, mass):  # type: ignore
         way = up / length + c * rate
         stiffness = n * K + rate**2 * (K - S) + (g + up) / length * H + way * G
         if not (still and speed == 0.0 and up == 0.0):
-            inverse = np.linalg.inv((1.0 + h * c) * one + 2.0 * h * rate * G + h * h * stiffness)
+            inverse = np.ascontiguousarray(np.linalg.inv((1.0 + h * c) * one + 2.0 * h * rate * G + h * h * stiffness))
             still = speed == 0.0 and up == 0.0
         db, level = (b[i + 1] - b[i]) / dt, 0.5 * (b[i] + b[i + 1])
         force = n * lift[2] + rate**2 * (lift[2] - lift[1]) + (g + up) / length * lift[3] + way * lift[0]

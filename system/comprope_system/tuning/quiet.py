@@ -1,0 +1,65 @@
+"""What time a quiet rope costs: the fastest trip that leaves a share of the present swing after it."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from comprope.drive.parameters import Drive
+
+from .families import course_of
+from .free import Goal, free_drive
+from .measure import small_swing
+from .task import Task, told_of
+
+FREE = "free"
+ASKED = 0.8  # of a share is looked for on the small rope, which does not know the sheave's bounce
+LONGEST = 4.0  # of the shortest travel time
+
+
+def saved(task: Task, shares: Sequence[float]) -> list[dict[str, Any]]:
+    """The least travel time found that leaves each share of the present swing after the trip, full model."""
+    quietest = _Quietest(task)
+    return [_time_for(task, quietest, share) for share in shares]
+
+
+class _Quietest:
+    """The drive that leaves least swing after a trip of some factor of the present travel time, on the small rope."""
+
+    def __init__(self, task: Task) -> None:
+        self.task, self.known = task, dict[float, tuple[Drive | None, float]]()
+        self.present = course_of(task.drive, task.way)
+        own = small_swing(task.case(), self.present, task.watched)
+        self.goal, self.after = Goal(0.05 / own.during, 0.95 / own.after), own.after
+
+    def __call__(self, factor: float) -> tuple[Drive | None, float]:
+        """The drive and its swing after the trip over the present one's; infinite where no curve is so fast."""
+        if factor not in self.known:
+            task, case = self.task, self.task.case()
+            near = min(
+                ((abs(factor - one), drive) for one, (drive, _) in self.known.items() if drive), default=(0.0, None), key=_first
+            )[1]
+            first = course_of(near, task.way) if near else self.present
+            time = factor * self.present.duration
+            drive = free_drive(task.drive, task.way, time, [case], task.watched, self.goal, first)
+            left = small_swing(case, course_of(drive, task.way), task.watched).after / self.after if drive else np.inf
+            self.known[factor] = drive, left
+        return self.known[factor]
+
+
+def _first(pair: tuple[float, Drive | None]) -> float:
+    return pair[0]
+
+
+def _time_for(task: Task, quietest: _Quietest, share: float) -> dict[str, Any]:
+    """By bisection over travel times on the small rope, asked for a little less than the share; judged on the full model."""
+    low = high = 1.0
+    while high < LONGEST and quietest(high := 1.2 * high)[1] > ASKED * share:
+        low = high
+    while high - low > 0.01:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if quietest(middle)[1] <= ASKED * share else (middle, high)
+    drive, left = quietest(high)
+    if drive is None or left > ASKED * share:
+        return {"share": share, "time": None, "small": None, "full": None}
+    return {"share": share} | told_of(task, drive, FREE, small_swing(task.case(), course_of(drive, task.way), task.watched))

@@ -1,0 +1,97 @@
+"""One trip to tune, and what is told of a drive on it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from comprope.drive.parameters import Drive, FirstTrip
+from comprope.rope.effects import RopeModel
+from comprope.rope.modelfile import as_table, with_changes
+
+from ..hanging import side_string
+from .bounce import Hoist, hoist_of
+from .calibrate import calibrated
+from .families import Way, course_of
+from .installed import installed
+from .measure import Case, Swing, tail
+
+CHOSEN = {"profile", "curve", "shaper", "servo"}  # parts of the drive that a tuning chooses
+
+
+@dataclass(frozen=True)
+class Task:
+    """One trip to tune.
+
+    Model, drive with the gains to use and the present one, the way, travel times over the shortest one, the weight of the swing
+    after the trip, the spread of the sheave's mass to be prepared for, and which of the times is installed and shown: the one
+    nearest to `chosen`, or the shortest that swings less than `limit` [m] if there is one.
+    """
+
+    model: RopeModel
+    drive: Drive
+    present: Drive
+    way: Way
+    factors: Sequence[float]
+    weight: float
+    spread: float
+    chosen: float
+    limit: float | None = None
+
+    @property
+    def watched(self) -> float:
+        """How long [s] to watch after the trip."""
+        return tail(self.model, self.way.destination)
+
+    @property
+    def hoist(self) -> Hoist:
+        """The bounces of car and counterweight under the present servo."""
+        return hoist_of(
+            Drive(shaft=self.drive.shaft, plant=self.drive.plant, servo=self.drive.servo, trip=FirstTrip(destination=0.0))
+        )
+
+    def case(self, mass: float = 1.0) -> Case:
+        """The small rope with the sheave's mass times `mass`."""
+        model = heavier(self.model, mass)
+        return Case(calibrated(model), model.shaft.height, model.shaft.pit, self.hoist)
+
+    def cases(self) -> list[Case]:
+        """The ropes that the search judges by."""
+        return [self.case()] + [self.case(1.0 + sign * self.spread) for sign in (-1.0, 1.0) if self.spread]
+
+
+def heavier(model: RopeModel, factor: float) -> RopeModel:
+    """The model with the sheave's mass and inertia times a factor."""
+    sheave = model.sheave
+    if factor == 1.0:
+        return model
+    return with_changes(model, {"sheave.mass": sheave.mass * factor, "sheave.inertia": sheave.inertia * factor}, "sheave")
+
+
+def periods(model: RopeModel) -> tuple[float, float]:
+    """The rope's slowest period [s] with the car at a terminal landing and half-way up."""
+    height = model.shaft.height
+    return side_string(model, 0.0).period(), side_string(model, 0.5 * height).period()
+
+
+def as_case(task: Task) -> dict[str, Any]:
+    """The task as a case of a sweep."""
+    return {
+        "model": as_table(task.model), "drive": task.drive.model_dump(), "present": task.present.model_dump(),
+        "way": [task.way.origin, task.way.destination],
+        "factors": list(task.factors), "weight": task.weight, "spread": task.spread, "chosen": task.chosen, "limit": task.limit,
+    }  # fmt: skip
+
+
+def told_of(task: Task, drive: Drive, kind: str, small: Swing) -> dict[str, Any]:
+    """A drive with its travel time and its swings on the small rope and on the full model."""
+    course = course_of(drive, task.way)
+    full = installed(task.model, task.case(), drive, task.way, task.watched, direct=True).swing()
+    return {
+        "kind": kind, "time": course.duration, "drive": drive.model_dump(include=CHOSEN),
+        "small": [small.during, small.after], "full": [full.during, full.after],
+    }  # fmt: skip
+
+
+def slowest_bounce(task: Task) -> float:
+    """The slowest bounce [s] on the way."""
+    return max(task.hoist.period(height) for height in (task.way.origin, task.way.destination))

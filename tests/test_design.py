@@ -1,0 +1,101 @@
+"""Design: the swaying rope against its equation of motion, sensors, the least sheave, and the command."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from comprope.errors import InputError
+from comprope.rope.modelfile import load
+from comprope_system import cli
+from comprope_system.design.job import _least
+from comprope_system.design.sensors import choose
+from comprope_system.design.sway import Sway, parked, worst
+from comprope_system.design.trips import floors, pairs
+from comprope_system.hanging import side_string
+from comprope_system.presets import model_path
+from comprope_system.tuning.measure import PLACES, Case
+from comprope_system.tuning.swaying import rope_of
+
+TOWER = load(model_path("tower50"))
+CASE = Case(rope_of(TOWER), 50.0, 1.5)
+
+
+def finite_differences(sway: Sway, length: float, count: int = 200) -> np.ndarray:
+    """The farthest departure from the building at PLACES, by a string of `count` pieces integrated in time."""
+    rope, ds = CASE.rope, length / count
+    s, half = np.linspace(0.0, length, count + 1), (np.arange(count) + 0.5) * ds
+    tension = (rope.weight + rope.mass_per_length * rope.gravity * half) / rope.mass_per_length
+    top, rate = sway.amplitude * length / 51.5, 2.0 * np.pi / sway.period
+
+    def motion(t: float, z: np.ndarray) -> np.ndarray:
+        y, v = np.zeros(count + 1), np.zeros(count + 1)
+        y[1:-1], v[1:-1] = z[: count - 1], z[count - 1 :]
+        y[-1] = top * np.sin(rate * t)
+        return np.concatenate([v[1:-1], np.diff(tension * np.diff(y) / ds) / ds])
+
+    start = np.concatenate(
+        [np.zeros(count - 1), top * rate * s[1:-1] / length]
+    )  # the building sets out swaying, and the rope with it
+    times = np.arange(0.0, sway.duration, 0.1)
+    found = solve_ivp(motion, (0.0, times[-1]), start, t_eval=times, rtol=1e-7, atol=1e-9).y[: count - 1]
+    relative = found - np.outer(s[1:-1] / length, top * np.sin(rate * times))
+    return np.array([np.interp(PLACES, s[1:-1] / length, one) for one in np.abs(relative.T)]).max(axis=0)
+
+
+@pytest.mark.parametrize("period", [2.0, 4.5])
+def test_the_closed_form_of_a_swaying_rope_is_its_equation_of_motion(period: float) -> None:
+    sway = Sway(0.02, period, 12.0)
+    wanted = finite_differences(sway, 41.5)
+    assert parked(CASE, sway, 10.0)["counterweight"] == pytest.approx(wanted, abs=0.02 * wanted.max())
+
+
+def test_the_rope_swings_most_where_its_period_is_the_sway_s() -> None:
+    cars = np.linspace(0.0, 25.0, 26)
+    period = side_string(TOWER, 12.0).period()
+    swing, car = worst(CASE, Sway(0.01, period, 60.0), cars)
+    assert car == 12.0
+    assert swing > 3.0 * max(float(one.max()) for one in parked(CASE, Sway(0.01, period, 60.0), 0.0).values())
+
+
+def test_trips_between_floors_leave_out_mirror_images() -> None:
+    assert pairs(floors(10.0, 3)) == [(0.0, 5.0), (0.0, 10.0), (5.0, 0.0)]
+    found = pairs(floors(50.0, 6))
+    assert len(found) == 15  # of 30
+    assert len({*found, *((50.0 - a, 50.0 - b) for a, b in found)}) == 30
+
+
+def test_sensors_are_where_every_occasion_is_seen() -> None:
+    seen = np.array([[1.0, 0.0, 0.9, 0.0], [0.0, 2.0, 0.0, 1.0], [0.0, 0.0, 0.4, 0.4]])
+    assert choose(seen, 2).places == (1, 2)
+    assert choose(seen, 2).share == pytest.approx(0.9)
+    assert choose(seen, 3).share == 1.0
+
+
+def test_the_least_mass_is_the_one_from_which_on_all_keep_the_limit() -> None:
+    scanned = [{"mass": mass, "swing": 1e-3 * swing} for mass, swing in ((10.0, 20.0), (20.0, 4.0), (40.0, 8.0), (80.0, 2.0))]
+    assert _least(scanned, "swing", "--limit", 4.0) == pytest.approx(40.0 * 2.0**0.5)
+    assert _least(scanned, "swing", "--limit", 30.0) == 10.0
+    with pytest.raises(
+        InputError, match=r"--limit 1: 2.00 mm or more is accepted; that is the swing even with a sheave of 80 kg"
+    ):
+        _least(scanned, "swing", "--limit", 1.0)
+
+
+def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("comprope_system.design.job.MASSES", np.array([0.4, 1.0, 2.5]))
+    monkeypatch.setattr("comprope_system.design.job.TOLERANCE", 0.3)
+    changes = [*("--set", "rope.element_length=0.1"), *("--set", "solver.step=0.01"), *("--set", "shaft.height=12")]
+    asked = ["--limit", 4, "--floors", 3, "--sway-period", 2, "--sway-amplitude", 5, "--jobs", 1, "--out", tmp_path]
+    with pytest.raises(SystemExit) as done:
+        cli.main([str(one) for one in ("design", "tower50", *changes, *asked)])
+    assert (done.value.code or 0) == 0
+    assert capsys.readouterr().out.startswith("least sheave for 4 mm: ")
+    result = json.loads((tmp_path / "result.json").read_text())
+    mass, swings = result["mass"], dict(map(tuple, result["full"]))
+    assert swings[mass] <= 4e-3
+    assert len(result["sensors"]["places"]) == 4
+    assert {"design.html", "resonance_own.png", "resonance_least.png", "design_mass.png"} <= {
+        one.name for one in tmp_path.iterdir()
+    }
