@@ -64,8 +64,8 @@ def fronts(trips: list[Mapping[str, Any]]) -> list[str]:
 
 def quiet(trips: list[Mapping[str, Any]]) -> list[str]:
     """Extra time for half and for a fifth of the present swing after the trip, share left on the full model, and the bound."""
-    asked = (f"{share}: extra, s", "left", "bound, s") for share in ("half", "fifth")
-    lines = head("trip", "period, s", *(one for three in asked for one in three), "too short to hide")
+    asked = [text for share in ("half", "fifth") for text in (f"{share}: extra, s", "left", "bound, s")]
+    lines = head("trip", "period, s", *asked, "too short to hide")
     for trip in trips:
         cells: list[str] = []
         for saved, least in zip(trip["saved"], trip["bound"]["times"], strict=True):
@@ -96,7 +96,8 @@ def tables(result: Mapping[str, Any]) -> list[str]:
         times = sum(common["times"]) / sum(trip["present"]["time"] for trip in trips)
         lines += ["", f"one controller, {common['kind']}, {times:.3f} of the present travel times", ""]
         pairs = zip(trips, common["full"], strict=True)
-        lines += head("trip", "present", "tuned") + [row(name(trip), mm(trip["present"]["full"]), mm(full)) for trip, full in pairs]
+        lines += head("trip", "present", "tuned")
+        lines += [row(name(trip), mm(trip["present"]["full"]), mm(full)) for trip, full in pairs]
     return lines
 
 

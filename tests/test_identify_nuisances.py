@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from comprope.rope.modelfile import with_changes
 from comprope_system.identify.add import prepare
 from comprope_system.identify.campaign import load_campaign
 from comprope_system.identify.compare import compare
@@ -10,6 +11,7 @@ from comprope_system.identify.diagnose import diagnose
 from comprope_system.identify.errors_of import channel_error
 from comprope_system.identify.hypotheses import CLOCK, NUISANCES
 from comprope_system.identify.jobs import threads
+from comprope_system.identify.replay import instrument
 
 from . import virtual_lift
 
@@ -46,7 +48,8 @@ def test_each_run_may_begin_with_another_angle_of_the_sheave(tmp_path, executor)
     folder, random = virtual_lift.campaign(tmp_path / "turned", {}), np.random.default_rng(3)
     for file, _, start, distance, changes in virtual_lift.RUNS:
         hidden = {RUNOUT: 2e-3, PHASE: PHASES[file]}
-        virtual_lift.measure(file, start, distance, changes, hidden, random).to_csv(folder / file, index=False, float_format="%.5f")
+        table = virtual_lift.measure(file, start, distance, changes, hidden, random)
+        table.to_csv(folder / file, index=False, float_format="%.5f")
     found = diagnose(load_campaign(folder), executor)
     assert found.verdict == "sheave_eccentricity"
     best = found.ranking[0].fitted
@@ -62,6 +65,15 @@ def test_samples_far_from_their_neighbours_are_no_error_of_the_model(tmp_path, e
     clean = compare(campaign, executor)
     campaign.runs[0].values["cw_low"][[50, 200, 301]] += 0.05
     assert compare(campaign, executor).nrmse == pytest.approx(clean.nrmse, rel=0.02)
+
+
+def test_a_delay_hides_no_sample_that_is_in_view():
+    model = with_changes(virtual_lift.MODEL, {"effects.sensor_delay.cw_low": -1e-6})
+    time = np.arange(0.0, 1.0, 0.01)
+    value = np.where((time > 0.2) & (time < 0.7), np.sin(time), np.nan)
+    shown = instrument(model, "cw_low", time, value)
+    assert np.array_equal(np.isfinite(shown), np.isfinite(value))
+    assert np.nanmax(abs(shown - value)) < 2e-6
 
 
 def test_an_error_is_that_of_the_samples_both_have():

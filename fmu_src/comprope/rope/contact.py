@@ -7,11 +7,11 @@ point, with penetration p of the groove's circle and its rate,
     P = max(0, k p + c p / (p + fade) dp/dt)  per length, outward,
     F = -mu P v_s / sqrt(v_s^2 + v_0^2)       along the groove, v_s = v_t - R theta' the slip velocity.
 
-Friction acts on the sheave with the arm R of eq. (2), however far the rope sinks into the groove: a turn winds
-2 pi R of rope whatever the tension. The damping fades in with penetration, so that it does not switch on at first touch. The B-spline of
-nodes that wrap a circle lies l^2 / (8 R) inside them; holding it at R_c = R - l^2 / (12 R) gives the
-polygon the pitch of R exactly (rope per radian), and the rope leaves the sheave where a continuous
-one does, both to fourth order in l / R.
+Friction acts on the sheave with the arm R of eq. (2), however far the rope sinks into the groove: a turn
+winds 2 pi R of rope whatever the tension. The damping fades in with penetration, so that it does not
+switch on at first touch. The B-spline of nodes that wrap a circle lies l^2 / (8 R) inside them; holding it
+at R_c = R - l^2 / (12 R) gives the polygon the pitch of R exactly (rope per radian), and the rope leaves
+the sheave where a continuous one does, both to fourth order in l / R.
 """
 
 from math import sqrt

@@ -24,6 +24,7 @@ from ..studies.design import TOLERANCE
 from ..sweep import sweep, values
 from ..trip_job import assignments
 from ..tuning.measure import SIDES, tail
+from ..tuning.task import source
 from . import page
 from .sensors import choose
 from .sway import Sway, parked
@@ -73,7 +74,7 @@ def run(request: Request) -> dict[str, Any]:
     profile = load_drive(request.drive or drive_path(request.model), tables).profile
     sway = request.sway
     base: dict[str, Any] = {"model": as_table(model), "profile": profile.model_dump(), "floors": request.floors}
-    base["sway"] = sway.__dict__ if sway else None
+    base |= {"sway": sway.__dict__ if sway else None, "source": source()}
     with workers(request.jobs, request.executor) as executor:
         cases = [base | {"mass": float(mass)} for mass in MASSES * model.sheave.mass if _wraps(model, float(mass))]
         scanned = values(sweep(of_mass, cases, executor, request.out / STORE, "masses"))

@@ -49,8 +49,16 @@ def instrument(model: RopeModel, column: str, time: Floats, value: Floats) -> Fl
     gain, offset, delay = (
         (getattr(model.effects, name) or {}).get(column) for name in ("sensor_gain", "sensor_offset", "sensor_delay")
     )
-    late = np.interp(time - delay, time, value) if delay else value
+    late = _delayed(time, value, delay) if delay else value
     return (1.0 if gain is None else gain) * late + (offset or 0.0)
+
+
+def _delayed(time: Floats, value: Floats, delay: float) -> Floats:
+    """The value a while ago; what is not in view stays so, and hides nothing of what is."""
+    known = np.isfinite(value)
+    if not known.any():
+        return value
+    return np.where(known, np.interp(time - delay, time[known], value[known]), np.nan)
 
 
 def referred(values: dict[str, Floats], run: Run, channels: Mapping[str, Channel]) -> dict[str, Floats]:

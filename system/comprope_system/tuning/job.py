@@ -14,7 +14,7 @@ import tomli_w
 from comprope.drive.parameters import Drive
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
-from comprope.rope.modelfile import as_table, load, with_changes
+from comprope.rope.modelfile import load, with_changes
 from comprope.whole import require_writable, whole_file
 
 from ..executors import workers
@@ -34,6 +34,7 @@ from .trip import drive_of, installed_case, tuned_trip
 
 PAGE, RESULT, STORE, MODELS, CONTROLLER = "tuning.html", "result.json", "runs.jsonl", "rope_models.json", "controller.drive.toml"
 TRIPS = ((0.0, 0.04), (0.0, 0.11), (0.0, 0.3), (0.0, 1.0), (1.0, 0.85), (0.5, 0.6))  # of the shaft's height
+SEEN = ("model", "way", "source")  # of a trip's case, all that its swing depends on beside the drive
 SHORTEST, LONGEST = 1.0, 5.0  # travel times over the present one
 
 
@@ -131,7 +132,7 @@ def _task(
 def _installed(common: Joint, tasks: Sequence[Task], executor: Executor | None, store: Path) -> dict[str, Any]:
     """The controller for all trips, with the swings of its FMUs."""
     cases = [
-        {"model": as_table(task.model), "drive": common.drive.model_dump(), "way": [task.way.origin, task.way.destination]}
+        {"drive": common.drive.model_dump()} | {key: value for key, value in as_case(task).items() if key in SEEN}
         for task in tasks
     ]
     return told(common, values(sweep(installed_case, cases, executor, store, "one controller")))

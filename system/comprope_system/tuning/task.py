@@ -1,7 +1,10 @@
 """One trip to tune, and what is told of a drive on it."""
 
+import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 from comprope.drive.parameters import Drive, FirstTrip
@@ -79,7 +82,15 @@ def as_case(task: Task) -> dict[str, Any]:
         "model": as_table(task.model), "drive": task.drive.model_dump(), "present": task.present.model_dump(),
         "way": [task.way.origin, task.way.destination],
         "factors": list(task.factors), "weight": task.weight, "spread": task.spread, "chosen": task.chosen, "limit": task.limit,
+        "source": source(),
     }  # fmt: skip
+
+
+@cache
+def source() -> str:
+    """A hash of the tuning's own files, so that a sweep takes over no results of another version."""
+    text = b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
+    return hashlib.sha256(text).hexdigest()[:16]
 
 
 def told_of(task: Task, drive: Drive, kind: str, small: Swing) -> dict[str, Any]:
