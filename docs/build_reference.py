@@ -58,7 +58,9 @@ def _symbols(rope: ModelInterface) -> str:
         (f"`{symbol}`", outputs[name.split(" - ")[-1]].help, outputs[name.split(" - ")[-1]].unit, f"`{name}`")
         for symbol, name in VARIABLES.items()
     ]
-    return _section("Nomenclature", "Symbols of [theory.md](theory.md) and of the kernels.", ("", "", "unit", "name"), declared + states)
+    return _section(
+        "Nomenclature", "Symbols of [theory.md](theory.md) and of the kernels.", ("", "", "unit", "name"), declared + states
+    )
 
 
 def _model_file() -> str:
@@ -78,8 +80,14 @@ def _effects() -> str:
 
 
 def _campaign() -> str:
-    units = _table(("quantity", "units"), [(f"`{name}`", ", ".join(f"`{unit}`" for unit in known)) for name, known in UNITS.items()])
-    tables = (_fields("top of the file", CampaignFile, 3), _fields("`[[channels]]`", Channel, 3), _fields("`[[runs]]`", RunSpec, 3))
+    units = _table(
+        ("quantity", "units"), [(f"`{name}`", ", ".join(f"`{unit}`" for unit in known)) for name, known in UNITS.items()]
+    )
+    tables = (
+        _fields("top of the file", CampaignFile, 3),
+        _fields("`[[channels]]`", Channel, 3),
+        _fields("`[[runs]]`", RunSpec, 3),
+    )
     return "\n".join(["## Campaign: `campaign.toml`\n", *tables, "### Quantities of channels\n", units])
 
 
@@ -91,9 +99,7 @@ def _columns() -> str:
 
 
 def _drive() -> str:
-    tables = [
-        _quantities(f"`[{name}]`", type(getattr(Drive(), name))) for name in Drive.model_fields if name != "curve"
-    ]
+    tables = [_quantities(f"`[{name}]`", type(getattr(Drive(), name))) for name in Drive.model_fields if name != "curve"]
     said = (
         "Tables of a drive file, `comprope simulate --drive FILE.toml`, and parameters of the drive's FMU. `[curve]` has `a1` to "
         "`a19`: accelerations at twentieths of the travel time, over the largest, for trips of a free shape."
@@ -109,7 +115,9 @@ def _fmu(title: str, interface: ModelInterface) -> str:
         for one in interface.of_role(role)
         if "[" not in one.name or "[1]" in one.name
     ]
-    switches = [(f"`{one.name}`", "parameter", one.kind, "", one.help) for one in interface.of_role("parameter") if "." not in one.name]
+    switches = [
+        (f"`{one.name}`", "parameter", one.kind, "", one.help) for one in interface.of_role("parameter") if "." not in one.name
+    ]
     return _section(title, said, ("variable", "role", "type", "unit", ""), rows + switches)
 
 
@@ -132,7 +140,8 @@ def _default(one: Quantity) -> str:
 
 def _fields(title: str, component: type[BaseModel], level: int) -> str:
     rows = [
-        (f"`{name}`", "required" if field.is_required() else "", field.description or "") for name, field in component.model_fields.items()
+        (f"`{name}`", "required" if field.is_required() else "", field.description or "")
+        for name, field in component.model_fields.items()
     ]
     return f"{'#' * level} {title}\n\n{_said(component)}{_table(('key', '', ''), rows)}"
 

@@ -88,7 +88,9 @@ def test_packing_loses_less_than_a_line_is_wide():
     assert np.array_equal(unpacked(packed([0.0, 0.0])), [0.0, 0.0])
 
 
-@pytest.mark.parametrize(("step", "total", "interval"), [(0.01, 500, 0.05), (0.05, 100, 0.05), (0.1, 50, 0.1), (0.001, 600_000, 0.5)])
+@pytest.mark.parametrize(
+    ("step", "total", "interval"), [(0.01, 500, 0.05), (0.05, 100, 0.05), (0.1, 50, 0.1), (0.001, 600_000, 0.5)]
+)
 def test_a_camera_takes_20_frames_a_second_and_never_too_many(monkeypatch, step, total, interval):
     monkeypatch.setattr("comprope_system.animation.camera.look", lambda rope: rope)
     camera = Camera(lambda: "frame", step)
@@ -101,9 +103,7 @@ def test_a_camera_takes_20_frames_a_second_and_never_too_many(monkeypatch, step,
 def test_the_longest_page_stays_below_2_mb(tmp_path, monkeypatch):
     """As many frames as there can be, of noise, with the traces of eight sensors."""
     random = np.random.default_rng(1)
-    frames = [
-        Frame(random.random(2), random.random((2, POINTS)), random.random((2, ARC)), 0.0, 0.0) for _ in range(MOST + 1)
-    ]
+    frames = [Frame(random.random(2), random.random((2, POINTS)), random.random((2, ARC)), 0.0, 0.0) for _ in range(MOST + 1)]
     monkeypatch.setattr("comprope_system.animation.film.at_rest", lambda model, frames: [one.sides for one in frames])
     traces = [Trace(str(k), "mm", random.random(2400), random.random(2400)) for k in range(12)]
     moving = Animation("trip", film(MODEL, frames, 0.05, traces))
@@ -167,7 +167,13 @@ wait();
 def test_a_browser_plays_the_page(trip, tmp_path):
     page = trip[0].read_text(encoding="utf-8").replace("<head>", "<head>" + WATCH).replace("</body>", PLAY)
     (tmp_path / "play.html").write_text(page, encoding="utf-8")
-    options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'user'}", "--virtual-time-budget=4000"]
+    options = [
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        f"--user-data-dir={tmp_path / 'user'}",
+        "--virtual-time-budget=4000",
+    ]
     done = subprocess.run(
         [BROWSER, *options, "--enable-logging=stderr", "--dump-dom", (tmp_path / "play.html").as_uri()],
         capture_output=True, text=True, timeout=60, check=False,

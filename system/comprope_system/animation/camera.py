@@ -12,7 +12,9 @@ from ..ride import Floats, side_shape
 
 SIDES = ("car", "counterweight")
 POINTS = 80  # along each side, from its end down to the axle's height
-DOWN = 1.0 - (1.0 - np.linspace(0.0, 1.0, POINTS)) ** 1.5  # how far down each is: closer together where the rope bends onto the sheave
+DOWN = (
+    1.0 - (1.0 - np.linspace(0.0, 1.0, POINTS)) ** 1.5
+)  # how far down each is: closer together where the rope bends onto the sheave
 ARC = 48  # along the rope round the sheave
 REACH = 1.6  # radii above the axle up to which that rope is kept
 RATE = 20.0  # frames a second: a rope's lower modes in a shaft are slower than 2 Hz

@@ -21,7 +21,8 @@ ONE_WAY = Annotated[bool, typer.Option("--one-way", help="The drive does not fee
 OUT = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write every communication step as a row.")]
 PLOT = Annotated[Path | None, typer.Option(metavar="FILE.png", help="Draw the trip; .pdf and .svg are fine too.")]
 REPORT = Annotated[
-    Path | None, typer.Option(metavar="F.html", help="Write a page that plays the trip, and shows its figures; steps as --direct.")
+    Path | None,
+    typer.Option(metavar="F.html", help="Write a page that plays the trip, and shows its figures; steps as --direct."),
 ]
 
 
