@@ -17,7 +17,7 @@ from .traces import traces
 _LEAD = "One trip of {distance:.1f} m in a shaft of {height:g} m, under a sheave of {mass:g} kg for each rope."
 _CAPTION = (
     "Left, the whole shaft: lateral motion is magnified; the gap between the sides and the sheave's size are not to scale. "
-    "“From rest” shows how far the rope is from where it would hang at rest under a car at the same height, “as it stands” how far "
+    "“From rest” shows how far the rope is from where it would hang at rest under a car at the same height, “as it stands” how far "  # noqa: E501
     "from the dotted lines, where a straight, perfectly flexible rope would hang. Right, the rope round the sheave in true "
     "proportion; the sheave's rise and fall is magnified. Curves are as the sensors see the rope: outward is positive on either "
     "side, and a curve stops where the rope's end has passed the sensor."
