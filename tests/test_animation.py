@@ -147,7 +147,7 @@ set(".magnify", 1, "input");
 told.factor = find(".factor").textContent;
 told.traces = document.querySelectorAll(".trace").length;
 const box = find(".trace").getBoundingClientRect();
-find(".trace").dispatchEvent(new PointerEvent("pointerdown", { clientX: box.left + box.width / 2, clientY: box.top, pointerId: 1 }));  # noqa: E501
+find(".trace").dispatchEvent(new PointerEvent("pointerdown", { clientX: box.left + box.width / 2, clientY: box.top, pointerId: 1 }));
 told.picked = find(".clock").textContent;
 set(".time", 0, "input");
 find(".play").click();
