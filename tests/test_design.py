@@ -12,7 +12,7 @@ from comprope_system import cli
 from comprope_system.design.job import _least
 from comprope_system.design.sensors import choose
 from comprope_system.design.sway import Sway, parked, worst
-from comprope_system.design.trips import floors, pairs
+from comprope_system.design.trips import _at_heights, floors, pairs
 from comprope_system.hanging import side_string
 from comprope_system.presets import model_path
 from comprope_system.tuning.measure import PLACES, Case
@@ -99,3 +99,10 @@ def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
     assert {"design.html", "resonance_own.png", "resonance_least.png", "design_mass.png"} <= {
         one.name for one in tmp_path.iterdir()
     }
+
+
+def test_departures_at_fixed_heights_are_read_between_places_and_nought_beyond_the_rope() -> None:
+    length = np.array([10.0, 20.0])
+    departure = np.array([PLACES, 2.0 * PLACES])
+    found = _at_heights(departure, length, np.array([5.0, 9.0, 15.0]))
+    assert found == pytest.approx(np.array([[0.5, 0.9, 0.0], [0.5, 0.9, 1.5]]))

@@ -16,7 +16,7 @@ from comprope_system.hanging import side_string
 from comprope_system.lift import load_drive
 from comprope_system.presets import model_path
 from comprope_system.ride import side_shape
-from comprope_system.tuning import bound, job, page, servo
+from comprope_system.tuning import bound, job, page, quiet, servo
 from comprope_system.tuning.bounce import hoist_of
 from comprope_system.tuning.calibrate import calibrated
 from comprope_system.tuning.families import KINDS, Way, course_of, drive_for
@@ -179,6 +179,14 @@ def test_servo_gains_keep_their_margins_and_damp_the_bounce_more() -> None:
     assert best.bounce > present.bounce
     weak = servo.gains_of(DRIVE.model_copy(update={"servo": Servo(position_bandwidth=10.0)}))
     assert not weak.kept
+
+
+def test_a_trip_of_the_front_counts_where_it_is_quiet_sooner_than_what_was_found() -> None:
+    found = [{"share": 0.5, "time": 9.0, "full": [1.0, 0.4]}, {"share": 0.2, "time": 12.0, "full": [1.0, 0.3]}]
+    points = [{"s_curve": {"time": 8.0, "full": [1.0, 0.45]}, "tuned": {"time": 8.0, "full": [1.0, 0.6]}}]
+    half, fifth = quiet.sooner(found, points, {"full": [2.0, 1.0]})
+    assert half == {"share": 0.5, "time": 8.0, "full": [1.0, 0.45]}
+    assert fifth == found[1]  # nothing leaves a fifth: what was found is told with what it leaves
 
 
 def run(capsys, *arguments):

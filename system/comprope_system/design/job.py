@@ -32,6 +32,7 @@ from .trips import envelopes, floors, full_of_mass, of_mass, pairs, rope_of_mass
 
 PAGE, RESULT, STORE = "design.html", "result.json", "runs.jsonl"
 MASSES = np.geomspace(0.35, 8.0, 22)  # of the model's own sheave
+LOWEST = 1.5  # m above the axle: where the lowest sensor may be
 BINS = 60  # heights that a sensor may have, on each side
 WORST = 60  # trips that sensors are chosen for: those that swing most, during and after
 TRIES = 12  # of a full model's search for the mass
@@ -150,17 +151,17 @@ def _on_full_model(
 def _sensors(model: RopeModel, profile: Profile, request: Request, sway: Sway | None) -> dict[str, Any]:
     """The heights [m] from which a few sensors see most of every large swing."""
     small, heights = small_case(model), floors(model.shaft.height, request.floors)
-    edges = np.linspace(1.5 - model.shaft.pit, model.shaft.height, BINS + 1)
+    spots = np.linspace(LOWEST - model.shaft.pit, model.shaft.height, BINS)
     occasions: tuple[list[Any], list[Any]] = ([], [])  # during and after trips
     for trip in pairs(heights):
-        for kind, seen in zip(occasions, envelopes(small, profile, trip, tail(model, trip[1]), edges), strict=True):
+        for kind, seen in zip(occasions, envelopes(small, profile, trip, tail(model, trip[1]), spots), strict=True):
             kind += [np.concatenate([seen[one], seen[other]]) for one, other in (tuple(SIDES), tuple(SIDES)[::-1])]
     largest = [one for kind in occasions for one in sorted(kind, key=lambda each: -float(each.max()))[: 2 * WORST]]
-    middles, found = 0.5 * (edges[1:] + edges[:-1]), choose(np.array(largest), request.sensors)
-    places = [{"side": "car" if k < BINS else "counterweight", "height": float(middles[k % BINS])} for k in found.places]
+    found = choose(np.array(largest), request.sensors)
+    places = [{"side": "car" if k < BINS else "counterweight", "height": float(spots[k % BINS])} for k in found.places]
     profile_of = parked(small, sway, float(heights[0])) if sway else {}
     return {
-        "places": places, "share": found.share, "heights": middles.tolist(), "seen": np.max(largest, axis=0).tolist(),
+        "places": places, "share": found.share, "heights": spots.tolist(), "seen": np.max(largest, axis=0).tolist(),
         "sway_seen": {side: one.tolist() for side, one in profile_of.items()},
     }  # fmt: skip
 

@@ -80,14 +80,23 @@ def full_of_mass(case: Mapping[str, Any]) -> float:
     return max(swing.during, swing.after)
 
 
-def envelopes(small: Case, profile: Profile, trip: tuple[float, float], watched: float, edges: Floats) -> list[dict[str, Floats]]:
-    """The farthest departures [m] on a trip, and those after it, in each interval of heights between `edges` [m], by side."""
+def envelopes(
+    small: Case, profile: Profile, trip: tuple[float, float], watched: float, heights: Floats
+) -> list[dict[str, Floats]]:
+    """The farthest departures [m] on a trip, and those after it, at `heights` [m], by side; 0 where the rope never is."""
     way = course(profile, trip)
     moved = moves(way, way.end_time + watched, DT)
     whole, after = dict[str, Floats](), dict[str, Floats]()
     for side, (length, departure) in displacements(small, moved).items():
-        bins = np.clip(np.digitize(length[:, None] * PLACES - small.pit, edges) - 1, 0, len(edges) - 2)
-        for found, times in ((whole, moved.time >= 0.0), (after, moved.time > way.end_time)):
-            found[side] = np.zeros(len(edges) - 1)
-            np.maximum.at(found[side], bins[times].ravel(), np.abs(departure[times]).ravel())
+        seen = np.abs(_at_heights(departure, length, heights + small.pit))
+        whole[side], after[side] = seen.max(axis=0), seen[moved.time > way.end_time].max(axis=0)
     return [whole, after]
+
+
+def _at_heights(departure: Floats, length: Floats, above: Floats) -> Floats:
+    """Departures (n, heights) at heights `above` the axle [m], from those at PLACES, evenly spaced; 0 beyond these."""
+    place = (above / length[:, None] - PLACES[0]) / (PLACES[1] - PLACES[0])
+    k = np.clip(place.astype(int), 0, len(PLACES) - 2)
+    rows = np.arange(len(length))[:, None]
+    between = (1.0 - place + k) * departure[rows, k] + (place - k) * departure[rows, k + 1]
+    return np.where((place >= 0.0) & (place <= len(PLACES) - 1), between, 0.0)

@@ -1,6 +1,6 @@
 """What time a quiet rope costs: the fastest trip that leaves a share of the present swing after it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,22 @@ def saved(task: Task, shares: Sequence[float]) -> list[dict[str, Any]]:
     """The least travel time found that leaves each share of the present swing after the trip, full model."""
     quietest = _Quietest(task)
     return [_time_for(task, quietest, share) for share in shares]
+
+
+def sooner(
+    found: Sequence[Mapping[str, Any]], points: Sequence[Mapping[str, Any]], present: Mapping[str, Any]
+) -> list[Mapping[str, Any]]:
+    """What was found for each share, or the fastest trip of the front that leaves no more on the full model, if it is sooner.
+
+    `present` is the present trip; a trip found that leaves more than its share on the full model gives way to any that does not.
+    """
+    told = [point[key] for point in points for key in ("s_curve", "tuned")]
+    return [_soonest(one, told, one["share"] * present["full"][1]) for one in found]
+
+
+def _soonest(found: Mapping[str, Any], others: Sequence[Mapping[str, Any]], most: float) -> Mapping[str, Any]:
+    kept = [one for one in (found, *others) if one["full"] and one["full"][1] <= most]
+    return {**min(kept, key=lambda one: one["time"]), "share": found["share"]} if kept else found
 
 
 class _Quietest:

@@ -45,11 +45,12 @@ def tuning(task: Task) -> dict[str, Any]:
         raise InputError(f"trip of {task.way.distance:g} m: the rope does not swing; there is nothing to tune")
     goal = Goal((1.0 - task.weight) / own.during, task.weight / own.after)
     points = [point for factor in task.factors if (point := _point(task, factor, goal))]
-    chosen = _chosen(task, points)
+    chosen, now = _chosen(task, points), told_of(task, task.present, "present", own)
     return {
         "origin": task.way.origin, "destination": task.way.destination,
-        "present": told_of(task, task.present, "present", own), "points": points,
-        "period": _period(task), "bound": _bound(task, [one["factor"] for one in points]), "saved": quiet.saved(task, SAVED),
+        "present": now, "points": points,
+        "period": _period(task), "bound": _bound(task, [one["factor"] for one in points]),
+        "saved": quiet.sooner(quiet.saved(task, SAVED), points, now),
         "installed": _installed(task, chosen) if chosen else None,
         "robust": _robust(task, chosen) if chosen else None,
     }  # fmt: skip

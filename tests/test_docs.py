@@ -1,0 +1,90 @@
+"""The documentation: what is generated is up to date, what can be run runs, what is linked is there."""
+
+import os
+import re
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comprope.rope.effects import INSTRUMENT, REGISTRY
+from comprope_system import cli
+
+ROOT = Path(__file__).parent.parent
+DOCS = ROOT / "docs"
+PAGES = sorted([*DOCS.glob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"])
+
+
+def anchors(page: Path) -> set[str]:
+    """The links that a page's headings can be reached by, as GitHub makes them."""
+    titles = re.findall(r"^#+ (.*)$", page.read_text("utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def test_the_reference_is_what_the_declarations_say():
+    text = runpy.run_path(str(DOCS / "build_reference.py"))["text"]()
+    assert (DOCS / "reference.md").read_text("utf-8") == text, "run `python docs/build_reference.py`"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\((?!https?:)([^)\s]+)\)", page.read_text("utf-8")):
+        path, _, anchor = target.partition("#")
+        there = page.parent / path if path else page
+        assert there.exists(), f"{page.name}: {target}"
+        assert not anchor or there.suffix != ".md" or anchor in anchors(there), f"{page.name}: {target}"
+
+
+def test_every_page_can_be_reached_from_the_first():
+    first = (DOCS / "README.md").read_text("utf-8")
+    pages = {path.name for path in [*DOCS.glob("*.md"), DOCS / "tutorial.py"]} - {"README.md"}
+    assert {name for name in pages if f"({name})" in first} == pages
+
+
+def test_theory_has_a_line_for_every_effect():
+    text = (DOCS / "theory.md").read_text("utf-8")
+    effects = [name for name, effect in REGISTRY.items() if not effect.source]
+    assert [name for name in (*effects, *INSTRUMENT) if f"`{name}`" not in text] == []
+
+
+def test_commands_and_options_that_pages_name_exist(capsys):
+    named: dict[str, set[str]] = {}
+    for page in PAGES:
+        for command, rest in re.findall(r"comprope (?:--allow-code )?([a-z]+)\b([^`\n]*)", page.read_text("utf-8")):
+            if command in cli.app_commands():
+                named.setdefault(command, set()).update(re.findall(r"--[a-z][a-z-]*", rest))
+    assert {"simulate", "compare", "diagnose", "add", "tune"} <= set(named)
+    for command, options in named.items():
+        assert options <= cli.app_commands()[command], command
+
+
+# -- scripts -----------------------------------------------------------------------------------------
+
+
+def test_the_script_for_fmpy_does_what_simulate_does(tmp_path):
+    built = subprocess.run(
+        [sys.executable, ROOT / "build_fmu.py", "--out", tmp_path], capture_output=True, text=True, check=True
+    ).stdout.splitlines()
+    arguments = [tmp_path / "ElevatorDrive.fmu", tmp_path / "CompensationRope.fmu", tmp_path / "trip.csv", "3"]
+    assert sorted(map(Path, built)) == sorted(arguments[:2])
+    subprocess.run([sys.executable, DOCS / "fmpy_trip.py", *arguments], check=True, timeout=120)
+    with pytest.raises(SystemExit):
+        cli.main(["simulate", "tower50", "--direct", "--time", "3", "--out", str(tmp_path / "same.csv")])
+    one, two = pd.read_csv(tmp_path / "trip.csv"), pd.read_csv(tmp_path / "same.csv")
+    assert one["car_position"].iloc[-1] > 0.5
+    # The same numbers but for the nine digits that the second file has.
+    assert np.allclose(one["lateral_displacement[1]"], two["cw_low"], rtol=1e-8, atol=0.0)
+    assert np.allclose(one["sheave_force"], two["sheave_force"], rtol=1e-8, atol=0.0)
+
+
+def test_the_tutorial_runs(tmp_path):
+    """In a folder of its own, as a reader runs it; its own assertions say whether it comes out as it tells."""
+    done = subprocess.run(
+        [sys.executable, DOCS / "tutorial.py"], cwd=tmp_path, env=os.environ | {"MPLBACKEND": "agg"},
+        capture_output=True, text=True, timeout=300, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr[-2000:]
