@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from typer.main import get_command
 
 from comprope.rope.effects import INSTRUMENT, REGISTRY
 from comprope_system import cli
@@ -51,26 +52,32 @@ def test_theory_has_a_line_for_every_effect():
     assert [name for name in (*effects, *INSTRUMENT) if f"`{name}`" not in text] == []
 
 
-def test_commands_and_options_that_pages_name_exist(capsys):
+def test_commands_and_options_that_pages_name_exist():
+    known = {name: {text for one in command.params for text in one.opts} for name, command in get_command(cli.app).commands.items()}
     named: dict[str, set[str]] = {}
-    for page in PAGES:
-        for command, rest in re.findall(r"comprope (?:--allow-code )?([a-z]+)\b([^`\n]*)", page.read_text("utf-8")):
-            if command in cli.app_commands():
-                named.setdefault(command, set()).update(re.findall(r"--[a-z][a-z-]*", rest))
-    assert {"simulate", "compare", "diagnose", "add", "tune"} <= set(named)
+    for page in [*PAGES, DOCS / "tutorial.py"]:
+        for command, rest in re.findall(r"comprope (?:--allow-code )?([a-z]+) ([^`\n]*)", page.read_text("utf-8")):
+            if command in known or "--" in rest:
+                named.setdefault(command, set()).update(re.findall(r"(?<!\S)--[a-z][a-z-]*", rest))
+    assert set(named) <= set(known)
+    assert {"simulate", "compare", "diagnose", "add", "journey", "tune"} <= set(named)
     for command, options in named.items():
-        assert options <= cli.app_commands()[command], command
+        assert options <= known[command], command
 
 
 # -- scripts -----------------------------------------------------------------------------------------
 
 
-def test_the_script_for_fmpy_does_what_simulate_does(tmp_path):
-    built = subprocess.run(
-        [sys.executable, ROOT / "build_fmu.py", "--out", tmp_path], capture_output=True, text=True, check=True
-    ).stdout.splitlines()
-    arguments = [tmp_path / "ElevatorDrive.fmu", tmp_path / "CompensationRope.fmu", tmp_path / "trip.csv", "3"]
-    assert sorted(map(Path, built)) == sorted(arguments[:2])
+@pytest.fixture(scope="module")
+def dist(tmp_path_factory):
+    """Both FMUs as a reader of the pages builds them."""
+    out = tmp_path_factory.mktemp("dist")
+    subprocess.run([sys.executable, ROOT / "build_fmu.py", "--out", out], capture_output=True, check=True)
+    return out
+
+
+def test_the_script_for_fmpy_does_what_simulate_does(dist, tmp_path):
+    arguments = [dist / "ElevatorDrive.fmu", dist / "CompensationRope.fmu", tmp_path / "trip.csv", "3"]
     subprocess.run([sys.executable, DOCS / "fmpy_trip.py", *arguments], check=True, timeout=120)
     with pytest.raises(SystemExit):
         cli.main(["simulate", "tower50", "--direct", "--time", "3", "--out", str(tmp_path / "same.csv")])
@@ -79,6 +86,15 @@ def test_the_script_for_fmpy_does_what_simulate_does(tmp_path):
     # The same numbers but for the nine digits that the second file has.
     assert np.allclose(one["lateral_displacement[1]"], two["cw_low"], rtol=1e-8, atol=0.0)
     assert np.allclose(one["sheave_force"], two["sheave_force"], rtol=1e-8, atol=0.0)
+
+
+def test_the_lines_for_fmpy_on_the_page_run(dist):
+    lines = re.search(r"```python\n(.*?)```", (DOCS / "fmu.md").read_text("utf-8"), re.DOTALL)[1]
+    found: dict = {}
+    exec(lines.replace("dist/", f"{dist.as_posix()}/").replace("stop_time=19.0", "stop_time=3.0"), found)
+    result = found["result"]
+    assert result["time"][-1] == pytest.approx(3.0)
+    assert np.ptp(result["lateral_displacement[1]"]) > 1e-4
 
 
 def test_the_tutorial_runs(tmp_path):

@@ -16,7 +16,7 @@ from .problem import Problem, Solution, scale_of, solve
 
 Floats = NDArray[np.float64]
 ENOUGH = 2e-3  # of the number of data: a fall of the cost below this ends the iteration
-ROUNDS = 7
+ROUNDS = 15
 TRUSTED = 3  # rounds after which what a fit expects is believed: friction answers to its size by far other than a line
 HALVINGS = 3
 
