@@ -53,7 +53,8 @@ def test_theory_has_a_line_for_every_effect():
 
 
 def test_commands_and_options_that_pages_name_exist():
-    known = {name: {text for one in command.params for text in one.opts} for name, command in get_command(cli.app).commands.items()}
+    commands = get_command(cli.app).commands
+    known = {name: {"--help", *(text for one in command.params for text in one.opts)} for name, command in commands.items()}
     named: dict[str, set[str]] = {}
     for page in [*PAGES, DOCS / "tutorial.py"]:
         for command, rest in re.findall(r"comprope (?:--allow-code )?([a-z]+) ([^`\n]*)", page.read_text("utf-8")):
