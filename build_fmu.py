@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parent
 sys.path.insert(0, str(ROOT / "fmu_src"))
 
 from comprope import consent  # noqa: E402
+from comprope.drive.engine import ENTRY as DRIVE_ENTRY  # noqa: E402
 from comprope.drive.engine import interface as drive_interface  # noqa: E402
 from comprope.errors import CompropeError, InputError  # noqa: E402
 from comprope.fmi.build import Origin, build  # noqa: E402
@@ -24,12 +25,6 @@ from comprope.rope.modelfile import bundle, load  # noqa: E402
 from comprope.rope.parameters import Sensor  # noqa: E402
 
 DEFAULT_MODEL = ROOT / "system" / "comprope_system" / "presets" / "tower50.toml"
-
-DRIVE_ENTRY = """\
-from .drive.engine import interface
-
-INTERFACE = interface()
-"""
 
 
 def main(arguments: list[str] | None = None) -> int:

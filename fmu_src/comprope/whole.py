@@ -1,4 +1,4 @@
-"""Files written whole or not at all: into a temporary neighbour, renamed when it is complete."""
+"""Files of a user's: read as text, and written whole or not at all, into a temporary neighbour renamed when complete."""
 
 import os
 import uuid
@@ -25,6 +25,16 @@ def whole_file(path: str | Path) -> Iterator[Path]:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def text_of(path: str | Path) -> str:
+    """The text of a file; raises `InputError` if it is absent, unreadable or not UTF-8."""
+    try:
+        return Path(path).read_bytes().decode("utf-8-sig")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: not UTF-8 text (byte {error.start + 1}); save the file as UTF-8") from None
 
 
 def require_writable(path: str | Path) -> None:

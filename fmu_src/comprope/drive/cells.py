@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from .hoist import STATES, state_space
-from .parameters import Drive, FirstTrip
+from .parameters import Drive
 
 _SPAN = 0.01
 _N = len(STATES)
@@ -47,7 +47,7 @@ class Cells:
 
 def cells(drive: Drive) -> Cells:
     """The cells of a drive's shaft; kept, so that a reset, another instance or another trip need not wait for them."""
-    return _cells(Drive(shaft=drive.shaft, plant=drive.plant, servo=drive.servo, trip=FirstTrip(destination=0.0)))
+    return _cells(drive.standing)
 
 
 @lru_cache(maxsize=8)

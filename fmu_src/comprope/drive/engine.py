@@ -21,6 +21,12 @@ from .stability import unstable_positions
 from .stepping import DriveEngine, compensation_pulls, input_problems
 
 NAME = "ElevatorDrive"
+# What makes the interface inside an FMU.
+ENTRY = """\
+from .drive.engine import interface
+
+INTERFACE = interface()
+"""
 _DESCRIPTION = "Elevator drive: jerk-limited trips, position and speed servo, car and counterweight on elastic hoist ropes"
 _REST_AFTER = 5.0  # s that a run goes on after the first trip, unless told otherwise
 _REAL_OUTPUTS = (  # name, unit, nominal, help

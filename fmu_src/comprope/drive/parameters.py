@@ -149,6 +149,11 @@ class Drive(Component):
     rope: CompensationRopes = CompensationRopes()
     servo: Servo = Servo()
 
+    @property
+    def standing(self) -> "Drive":
+        """Shaft, plant and servo alone: what the closed loop depends on, whatever trips are made."""
+        return Drive(shaft=self.shaft, plant=self.plant, servo=self.servo, trip=FirstTrip(destination=0.0))
+
     @model_validator(mode="after")
     def _stops_in_the_shaft(self) -> "Drive":
         stops = {"trip.start_position": self.trip.start_position, "trip.destination": self.trip.destination}

@@ -83,12 +83,12 @@ class CompensationRope:
 
     def require(self, status: float) -> None:
         """Raise what a kernel's status stands for, and name a user's own effect whose forces have become no numbers."""
-        power = self._do.moving["power"]
-        lost = [REGISTRY[name] for k, name in enumerate(self._do.effects) if not np.isfinite(power[k])]
-        own = [f"{one.name} ({one.source})" for one in lost if one.source]
         try:
             require_fine(status, self._do.told)
         except SimulationError as error:
+            power = self._do.moving["power"]
+            lost = [REGISTRY[name] for k, name in enumerate(self._do.effects) if not np.isfinite(power[k])]
+            own = [f"{one.name} ({one.source})" for one in lost if one.source]
             raise SimulationError(f"{error}; not finite are the forces of {', '.join(own)}" if own else str(error)) from None
 
     # -- what it shows ---------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from ..errors import InputError
 from ..explain import problems
-from ..whole import whole_file
+from ..whole import text_of, whole_file
 from .effects import RopeModel, model_type, own
 
 _NO_KEY = "not the key of a single value in this model, such as sheave.mass or sensors[1].height"
@@ -128,11 +128,7 @@ def _seen_from(folder: Path, file: str) -> str:
 def read_toml(path: str | Path) -> dict[str, Any]:
     """The tables of a TOML file; raises `InputError` if it is absent, unreadable, not UTF-8 or not TOML."""
     try:
-        return tomllib.loads(Path(path).read_bytes().decode("utf-8-sig"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: not UTF-8 text (byte {error.start + 1}); save the file as UTF-8") from None
+        return tomllib.loads(text_of(path))
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     except RecursionError:

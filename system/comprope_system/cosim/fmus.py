@@ -13,17 +13,17 @@ from pathlib import Path
 import fmpy
 
 import comprope
+from comprope.drive.engine import ENTRY as DRIVE_ENTRY
 from comprope.drive.engine import interface as drive_interface
 from comprope.fmi.build import Origin, build
 from comprope.fmi.engine import ModelInterface
-from comprope.rope.engine import ENTRY
+from comprope.rope.engine import ENTRY as ROPE_ENTRY
 from comprope.rope.engine import interface as rope_interface
 from comprope.rope.modelfile import as_table, bundle, load, validated
 
 from ..presets import model_path
 
 _SOURCES = Path(comprope.__file__).parent
-_DRIVE_ENTRY = "from .drive.engine import interface\n\nINTERFACE = interface()\n"
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Recipe:
 
 def drive_fmu() -> Path:
     """The drive's FMU, with the code installed here."""
-    return locate(Recipe(drive_interface(), "drive", _DRIVE_ENTRY))
+    return locate(Recipe(drive_interface(), "drive", DRIVE_ENTRY))
 
 
 def rope_fmu(sensors: int, own_effects: tuple[str, ...] = ()) -> Path:
@@ -68,7 +68,7 @@ def _rope_recipe(sensors: int, own_effects: tuple[str, ...]) -> Recipe:
     places = [{"name": f"sensor{k + 1}", "side": "car", "height": 0.0} for k in range(sensors)]
     table = as_table(load(model_path("tower50"))) | {"sensors": places, "own_effects": own_effects}
     model = validated(table, "tower50")
-    return Recipe(rope_interface(model), "rope", ENTRY, bundle(model))
+    return Recipe(rope_interface(model), "rope", ROPE_ENTRY, bundle(model))
 
 
 def _is_current(path: Path, recipe: Recipe) -> bool:

@@ -24,11 +24,11 @@ from ..studies.design import TOLERANCE
 from ..sweep import sweep, values
 from ..trip_job import assignments
 from ..tuning.measure import SIDES, tail
-from ..tuning.task import source
+from ..tuning.task import case_of, source
 from . import page
 from .sensors import choose
 from .sway import Sway, parked
-from .trips import envelopes, floors, full_of_mass, of_mass, pairs, rope_of_mass, small_case
+from .trips import envelopes, floors, full_of_mass, of_mass, pairs, rope_of_mass
 
 PAGE, RESULT, STORE = "design.html", "result.json", "runs.jsonl"
 MASSES = np.geomspace(0.35, 8.0, 22)  # of the model's own sheave
@@ -150,7 +150,7 @@ def _on_full_model(
 
 def _sensors(model: RopeModel, profile: Profile, request: Request, sway: Sway | None) -> dict[str, Any]:
     """The heights [m] from which a few sensors see most of every large swing."""
-    small, heights = small_case(model), floors(model.shaft.height, request.floors)
+    small, heights = case_of(model), floors(model.shaft.height, request.floors)
     spots = np.linspace(LOWEST - model.shaft.pit, model.shaft.height, BINS)
     occasions: tuple[list[Any], list[Any]] = ([], [])  # during and after trips
     for trip in pairs(heights):

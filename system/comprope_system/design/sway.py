@@ -13,10 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 
 from ..tuning.measure import PLACES, SIDES, Case
-from ..tuning.swaying import matrices, shapes
+from ..tuning.swaying import shapes, still_modes
 
 Floats = NDArray[np.float64]
 
@@ -45,9 +44,8 @@ def worst(case: Case, sway: Sway, cars: Floats) -> tuple[float, float]:
 
 
 def _side(case: Case, sway: Sway, length: float) -> Floats:
-    rope, M, W = case.rope, matrices(), 2.0 * np.pi / sway.period
-    press, weight = rope.weight / rope.mass_per_length / length**2, rope.gravity / length
-    squares, V = eigh(press * M.K + weight * M.H)
+    W = 2.0 * np.pi / sway.period
+    squares, V, _, weight = still_modes(case.rope, length)
     k = np.arange(1, len(squares) + 1)
     line = np.sqrt(2.0) * -((-1.0) ** k) / (np.pi * k)  # of sin(k pi xi) in xi
     bent = weight * np.sqrt(2.0) * ((-1.0) ** k - 1.0) / (np.pi * k)  # the integral of xi times the slope of sin(k pi xi)

@@ -14,10 +14,10 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.modelfile import validated, with_changes
 
 from ..studies.buildings import with_sheave
-from ..tuning.calibrate import calibrated
 from ..tuning.families import START
 from ..tuning.measure import DT, PLACES, Case, displacements, full_swing, small_swing, tail
 from ..tuning.motion import moves
+from ..tuning.task import case_of
 from .sway import Sway, worst
 
 Floats = NDArray[np.float64]
@@ -48,15 +48,10 @@ def rope_of_mass(model: RopeModel, mass: float) -> RopeModel:
     return with_changes(model, with_sheave(model, mass))
 
 
-def small_case(model: RopeModel) -> Case:
-    """The model's small rope."""
-    return Case(calibrated(model), model.shaft.height, model.shaft.pit)
-
-
 def of_mass(case: Mapping[str, Any]) -> dict[str, Any]:
     """The worst trip and the worst parked floor of a sheave's mass: a case of a sweep; swings in m, heights in m."""
     model = rope_of_mass(validated(case["model"], "case"), case["mass"])
-    small, profile = small_case(model), Profile.model_validate(case["profile"])
+    small, profile = case_of(model), Profile.model_validate(case["profile"])
     heights = floors(model.shaft.height, case["floors"])
     tails = {float(height): tail(model, float(height)) for height in heights}
     swings = []
@@ -76,7 +71,7 @@ def full_of_mass(case: Mapping[str, Any]) -> float:
     """The swing [m] of one trip on the full model with a sheave of some mass: a case of a sweep."""
     model = rope_of_mass(validated(case["model"], "case"), case["mass"])
     trip = (case["trip"][0], case["trip"][1])
-    swing, _ = full_swing(model, small_case(model), course(Profile.model_validate(case["profile"]), trip), tail(model, trip[1]))
+    swing, _ = full_swing(model, case_of(model), course(Profile.model_validate(case["profile"]), trip), tail(model, trip[1]))
     return max(swing.during, swing.after)
 
 

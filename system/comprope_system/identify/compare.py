@@ -120,10 +120,17 @@ class Comparison:
         return plain(found)
 
 
-def compare(campaign: Campaign, executor: Executor, point: Point | None = None) -> Comparison:
-    """Replay every run with the campaign's model, or at another point, and set it against what was measured."""
-    jobs = submit(campaign, campaign.runs, point or Point(), executor)
-    return compared(campaign, gathered(campaign.runs, jobs))
+def compare(
+    campaign: Campaign, executor: Executor, point: Point | None = None, known: Predictions | None = None
+) -> Comparison:
+    """Set every run against what was measured, replayed with the campaign's model or at another point.
+
+    `known` are predictions there that need no replay.
+    """
+    files = {file for file, _ in known or {}}
+    runs = [run for run in campaign.runs if run.file not in files]
+    jobs = submit(campaign, runs, point or Point(), executor)
+    return compared(campaign, gathered(runs, jobs) | (known or {}))
 
 
 def compared(campaign: Campaign, predictions: Predictions) -> Comparison:

@@ -102,7 +102,7 @@ def journey(campaign: Campaign, executor: Executor, say: Say = lambda _: None, m
 
 
 def _step(ground: Ground, name: str, fitted: Fitted, executor: Executor) -> Step:
-    found: Comparison = compare(ground.campaign, executor, fitted.point)
+    found: Comparison = compare(ground.campaign, executor, fitted.point, fitted.predictions)
     return Step(name, found.fit_nrmse, found.validate_nrmse, fitted.misfit / max(len(ground.problem.data), 1))
 
 

@@ -32,11 +32,12 @@ class Judged:
 
 
 def judge(diagnosis: Diagnosis, executor: Executor, base: Point | None = None) -> Judged:
-    """Replay what the diagnosis fitted on all runs, those held out too."""
+    """Judge what the diagnosis fitted on all runs; those held out are replayed."""
     campaign = diagnosis.campaign
-    before = compare(campaign, executor, base)
-    refitted = compare(campaign, executor, diagnosis.none.point)
-    candidates = {k: compare(campaign, executor, one.fitted.point) for k, one in enumerate(diagnosis.ranking) if one.refined}
+    before = compare(campaign, executor, base, diagnosis.nominal)
+    fits = {k: one.fitted for k, one in enumerate(diagnosis.ranking) if one.refined}
+    refitted = compare(campaign, executor, diagnosis.none.point, diagnosis.none.predictions)
+    candidates = {k: compare(campaign, executor, one.point, one.predictions) for k, one in fits.items()}
     found = Judged(diagnosis, before, refitted, candidates, ())
     return Judged(diagnosis, before, refitted, candidates, tuple(remarks(campaign, found.best.predictions)))
 

@@ -18,8 +18,8 @@ from .turning import solve_turned
 Floats = NDArray[np.float64]
 LOOKS = 40.0  # independent looks that a campaign is worth
 PRICE = 1.5  # of the score, for each parameter of an effect
-COARSEST = 0.3  # of the sheave's radius: elements of a first look
 TURN = 1.0  # the same, for each run's own phase
+COARSEST = 0.3  # of the sheave's radius: elements of a first look
 
 
 @dataclass(frozen=True)
@@ -74,11 +74,13 @@ def _effect_columns(problem: Problem, origin: Point, tried: Sequence[Hypothesis]
     """
     points = [origin, *(point for one in tried for point in unit_points(origin, one))]
     moved = iter(problem.attempts(*points, coarse=coarseness(problem)))
-    before = next(moved)
+    if (before := next(moved)) is None:
+        return
+    y = problem.whitened(before)
     for one in tried:
         found = [next(moved) for _ in one.directions]
-        if before is not None and all(at is not None for at in found):
-            yield one, np.column_stack([problem.whitened(at) - problem.whitened(before) for at in found if at is not None])
+        if all(at is not None for at in found):
+            yield one, np.column_stack([problem.whitened(at) - y for at in found if at is not None])
 
 
 def coarseness(problem: Problem) -> float:

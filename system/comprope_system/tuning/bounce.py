@@ -49,9 +49,13 @@ class Hoist:
         return added[0], added[1]
 
 
-@lru_cache(maxsize=8)
 def hoist_of(drive: Drive) -> Hoist:
-    """The bounces of a drive's car and counterweight; profile, curve, shaper and trip do not matter."""
+    """The bounces of a drive's car and counterweight; kept, whatever trips the drive makes."""
+    return _hoist(drive.standing)
+
+
+@lru_cache(maxsize=8)
+def _hoist(drive: Drive) -> Hoist:
     heights = np.linspace(0.0, drive.shaft.height, PLACES)
     found = np.array([_bounces(drive, float(height)) for height in heights])
     return Hoist(heights, found[:, 0].T, found[:, 1].T)

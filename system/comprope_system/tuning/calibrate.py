@@ -29,7 +29,7 @@ def calibrated(model: RopeModel) -> Rope:
     Raises `InputError` where the rope does not wrap the sheave.
     """
     rope = rope_of(model)
-    bending = (rope.bending_stiffness / rope.weight) ** 0.5
+    bending = rope.bending_length
     heights = np.linspace(NEAR, FAR, PLACES) * bending - model.shaft.pit
     low = _low(model, LEAST + 2.0 * FAR * bending)
     trip = plan(LIMITS, 0.1 * low.shaft.height, 0.9 * low.shaft.height, 0.5)

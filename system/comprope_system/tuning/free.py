@@ -18,7 +18,7 @@ from comprope.drive.curve import CurveTrip
 from comprope.drive.parameters import PARTS, Curve, Drive
 
 from .families import START, Way, course_of
-from .measure import CLEAR, DT, PLACES, Case, Swing, displacements, larger, spread
+from .measure import DT, PLACES, Case, Swing, displacements, larger, spread
 from .motion import moves
 
 Floats = NDArray[np.float64]
@@ -100,9 +100,8 @@ class _Seen:
         course = Course(trip, self.smoothing)
         moved, found = moves(course, course.end_time + self.watched, DT), []
         for case in self.cases:
-            near = CLEAR * (case.rope.bending_stiffness / case.rope.weight) ** 0.5
             for length, departure in displacements(case, moved).values():
-                found.append(np.where(length[:, None] * PLACES >= near, departure, 0.0))
+                found.append(np.where(length[:, None] * PLACES >= case.clear, departure, 0.0))
         return moved.time, np.array(found)
 
     def swing(self, a: Floats) -> Swing:

@@ -14,7 +14,7 @@ from ..columns import lateral_output, view_output
 from ..cosim import co_simulate
 from ..lift import driven
 from .families import Way, course_of
-from .measure import CLEAR, SIDES, Case, Swing, larger, spread
+from .measure import SIDES, Case, Swing, larger, spread
 from .swaying import at_rest
 
 Floats = NDArray[np.float64]
@@ -73,11 +73,10 @@ def _heights(case: Case, way: Way, side: str) -> Floats:
 def _trace(case: Case, heights: dict[str, Floats], end: float, time: Floats, car: Floats, seen: Floats) -> Trace:
     """Departures of both sides from their shapes at rest, where the sensors see the rope clear of the sheave."""
     departures, first = {}, 0
-    near = CLEAR * (case.rope.bending_stiffness / case.rope.weight) ** 0.5
     for side, each in heights.items():
         length, above = case.length(side, car), each + case.pit
         rest = np.array([at_rest(case.rope, np.array([one]), np.minimum(above / one, 1.0))[0] for one in length])
         own = seen[:, first : first + len(each)] - rest
-        departures[side] = np.where(above >= near, own, np.nan)
+        departures[side] = np.where(above >= case.clear, own, np.nan)
         first += len(each)
     return Trace(time, car, end, departures)

@@ -45,6 +45,11 @@ class Case:
     pit: float
     hoist: Hoist | None = None
 
+    @property
+    def clear(self) -> float:
+        """How far above the axle [m] the rope no longer leans on the sheave."""
+        return CLEAR * self.rope.bending_length
+
     def length(self, side: str, car: Floats) -> Floats:
         """A side's length [m] with the car at heights `car` [m]."""
         return self.pit + (car if side == "car" else self.height - car)
@@ -88,8 +93,7 @@ def small_swing(case: Case, course: Course, watched: float, dt: float = DT) -> S
 
 def swing_of(case: Case, time: Floats, end: float, length: Floats, departure: Floats, places: Floats = PLACES) -> Swing:
     """The swing of a side from its departures (n, places) and lengths (n,); moments without the rope (NaN) do not count."""
-    bending = (case.rope.bending_stiffness / case.rope.weight) ** 0.5
-    seen = np.where(length[:, None] * places >= CLEAR * bending, departure, np.nan)
+    seen = np.where(length[:, None] * places >= case.clear, departure, np.nan)
     return spread(seen, time > end)
 
 

@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 
-from comprope.drive.parameters import Drive, FirstTrip, Servo
+from comprope.drive.parameters import Drive, Servo
 from comprope.drive.stability import Margins, margins, unstable_positions
 
 from .bounce import hoist_of
@@ -44,8 +44,7 @@ def gains_of(drive: Drive) -> Gains:
     found: Sequence[Margins] = [margins(drive, place) for place in places]
     gain = min(min(one.gain_rise, one.gain_fall) for one in found)
     delay = min(np.radians(one.phase) / one.crossover for one in found)
-    bare = Drive(shaft=drive.shaft, plant=drive.plant, servo=drive.servo, trip=FirstTrip(destination=0.0))
-    return Gains(drive.servo, gain, min(one.phase for one in found), float(delay), float(_slow_damping(bare)))
+    return Gains(drive.servo, gain, min(one.phase for one in found), float(delay), float(_slow_damping(drive)))
 
 
 def best_gains(drive: Drive) -> Gains:
@@ -66,7 +65,7 @@ def _near(drive: Drive) -> list[Drive]:
         gains = {"position_bandwidth": position * own.position_bandwidth, "speed_bandwidth": speed * own.speed_bandwidth}
         if gains["position_bandwidth"] <= 0.25 * gains["speed_bandwidth"]:
             servo = own.model_copy(update=gains | {"speed_damping": damping})
-            found.append(Drive(shaft=drive.shaft, plant=drive.plant, servo=servo, trip=FirstTrip(destination=0.0)))
+            found.append(drive.standing.model_copy(update={"servo": servo}))
     return found
 
 

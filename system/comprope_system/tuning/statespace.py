@@ -10,10 +10,9 @@ from typing import Any
 import control
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 
 from .measure import SIDES, Case
-from .swaying import matrices, shapes
+from .swaying import matrices, shapes, still_modes
 
 Floats = NDArray[np.float64]
 
@@ -42,9 +41,7 @@ def _side(case: Case, side: str, car: float) -> control.StateSpace:
     """One side about rest: q'' + c q' + W^2 q = -(m b'' + c m b' + k b), b through two lags of speed and acceleration."""
     rope, M, sign = case.rope, matrices(), SIDES[side]
     length = float(case.length(side, np.array([car]))[0])
-    press = rope.weight / rope.mass_per_length / length**2
-    weight = rope.gravity / length
-    squares, V = eigh(press * M.K + weight * M.H)
+    squares, V, press, weight = still_modes(rope, length)
     squares, V = squares[:MODES], V[:, :MODES]
     m, k = V.T @ M.mass, V.T @ (press * M.lift[2] + weight * M.lift[3])
     offset = rope.offset

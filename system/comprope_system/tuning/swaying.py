@@ -29,6 +29,7 @@ from math import pi
 import numba
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
 
 from comprope.errors import InputError
 from comprope.rope.parameters import Base
@@ -65,6 +66,11 @@ class Rope:
             / (2.0 * self.radius * press)
             * (g0 + g1 * speed + g2 * speed**2 + g3 * np.tanh(speed / STARTS))
         )
+
+    @property
+    def bending_length(self) -> float:
+        """How far its stiffness reaches along the rope from where it is bent [m]: sqrt(EI / N)."""
+        return float((self.bending_stiffness / self.weight) ** 0.5)
 
     @property
     def offset(self) -> float:
@@ -132,6 +138,13 @@ def slopes(xi: Floats, count: int = SHAPES) -> Floats:
     """Their derivatives by xi (k, n)."""
     k = np.arange(1, count + 1)[:, None] * pi
     return np.asarray(np.sqrt(2.0) * k * np.cos(k * xi))
+
+
+def still_modes(rope: Rope, length: float, count: int = SHAPES) -> tuple[Floats, Floats, float, float]:
+    """Squares of the angular frequencies (k,) at standstill, modes (k, k) in the shape functions, N/(rho L^2) and g/L [1/s2]."""
+    M, press, weight = matrices(count), rope.weight / rope.mass_per_length / length**2, rope.gravity / length
+    squares, V = eigh(press * M.K + weight * M.H)
+    return squares, V, press, weight
 
 
 def at_rest(rope: Rope, length: Floats, xi: Floats) -> Floats:

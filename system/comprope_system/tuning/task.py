@@ -7,11 +7,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from comprope.drive.parameters import Drive, FirstTrip
+from comprope.drive.parameters import Drive
 from comprope.rope.effects import RopeModel
 from comprope.rope.modelfile import as_table, with_changes
 
 from ..hanging import side_string
+from ..studies.buildings import with_sheave
 from .bounce import Hoist, hoist_of
 from .calibrate import calibrated
 from .families import Way, course_of
@@ -48,26 +49,25 @@ class Task:
     @property
     def hoist(self) -> Hoist:
         """The bounces of car and counterweight under the present servo."""
-        return hoist_of(
-            Drive(shaft=self.drive.shaft, plant=self.drive.plant, servo=self.drive.servo, trip=FirstTrip(destination=0.0))
-        )
+        return hoist_of(self.drive)
 
     def case(self, mass: float = 1.0) -> Case:
         """The small rope with the sheave's mass times `mass`."""
-        model = heavier(self.model, mass)
-        return Case(calibrated(model), model.shaft.height, model.shaft.pit, self.hoist)
+        return case_of(heavier(self.model, mass), self.hoist)
 
     def cases(self) -> list[Case]:
         """The ropes that the search judges by."""
         return [self.case()] + [self.case(1.0 + sign * self.spread) for sign in (-1.0, 1.0) if self.spread]
 
 
+def case_of(model: RopeModel, hoist: Hoist | None = None) -> Case:
+    """The model's small rope in its shaft."""
+    return Case(calibrated(model), model.shaft.height, model.shaft.pit, hoist)
+
+
 def heavier(model: RopeModel, factor: float) -> RopeModel:
     """The model with the sheave's mass and inertia times a factor."""
-    sheave = model.sheave
-    if factor == 1.0:
-        return model
-    return with_changes(model, {"sheave.mass": sheave.mass * factor, "sheave.inertia": sheave.inertia * factor}, "sheave")
+    return model if factor == 1.0 else with_changes(model, with_sheave(model, model.sheave.mass * factor), "sheave")
 
 
 def periods(model: RopeModel) -> tuple[float, float]:

@@ -11,14 +11,13 @@ from comprope.rope.modelfile import validated
 
 from ..hanging import side_string
 from . import bound, quiet
-from .calibrate import calibrated
 from .families import KINDS, Way, course_of
 from .free import Goal, free_drive
 from .installed import Trace, installed
-from .measure import SIDES, Case, Swing, small_swing, tail
+from .measure import SIDES, Swing, small_swing, tail
 from .quiet import FREE
 from .search import Candidate, Search
-from .task import Task, heavier, periods, slowest_bounce, told_of
+from .task import Task, case_of, heavier, periods, slowest_bounce, told_of
 
 BETTER = 0.97  # of the S-curve's swings: what a tuned trip is asked to stay under in both
 SAVED = (0.5, 0.2)  # of the swing after the fastest trip: what time these take
@@ -132,8 +131,7 @@ def installed_case(case: Mapping[str, Any]) -> list[float]:
     """The swing [m] during and after one trip of a drive, by its FMUs: a case of a sweep."""
     model = validated(case["model"], "case")
     drive, way = Drive.model_validate(case["drive"]), Way(case["way"][0], case["way"][1], periods(model))
-    rope = Case(calibrated(model), model.shaft.height, model.shaft.pit)
-    swing = installed(model, rope, drive, way, tail(model, way.destination)).swing()
+    swing = installed(model, case_of(model), drive, way, tail(model, way.destination)).swing()
     return [swing.during, swing.after]
 
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from ... import consent
 from ...declare import Quantity, quantities
 from ...errors import CompropeError, InputError
+from ...whole import text_of
 from .. import jit
 from ..slots import DECLARED
 from .base import HOOKS, REGISTRY, Effect, Kernel
@@ -42,12 +43,7 @@ def read(path: Path, *, allow_code: bool = False) -> None:
     Raises `InputError` without consent, which is `allow_code` or the environment variable of `consent`, and for a file that
     cannot be read, fails, or has changed since it was run.
     """
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: not UTF-8 text (byte {error.start + 1}); save the file as UTF-8") from None
+    text = text_of(path)
     if _same(text) is None and not (allow_code or consent.given()):
         allow = f"comprope --allow-code ..., or {consent.VARIABLE}=1"
         raise InputError(f"{path} would be run as a program; read it, then allow it: {allow}")
