@@ -23,19 +23,23 @@ from .fit import Fitted, refine
 from .hypotheses import NUISANCES, Hypothesis, together
 from .linear import linearised
 from .point import Point, Predictions, gathered, submit
+from .present import shape_of
 from .problem import Problem, pose
-from .screen import LOOKS, Screened, screen
+from .screen import LOOKS, Screened, price, screen
 from .starts import best_start
 
 Floats = NDArray[np.float64]
 Say = Callable[[str], None]
 
 UNEXPLAINED = 0.04  # of the misfit that is too much: what "none of the known effects" stands for
-ADEQUATE = 0.95  # misfit per datum below which there is nothing to explain
+UNKNOWN = 10.0  # its price
+ADEQUATE = 0.85  # misfit per datum below which there is nothing to explain
 REFINED = 4  # hypotheses that are refined on the full model
 RIVAL = 2.0  # times the best fit's misfit above which a fit is not worth its time
 SECOND = 0.7  # of the misfit that the best effect may leave if a second one is to be looked for
 PAIRS = 2  # second effects that are refined with the first
+LEFT = 1.05  # misfit per datum above which a fit is worth another with more set free
+WORTH = 0.97  # of its misfit that it must fall to
 ALIKE = 0.7  # cosine above which two effects look the same in these data
 
 
@@ -109,8 +113,7 @@ def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say:
     say(f"{both.effect}, on the full model")
     start = np.concatenate([first.coefficients, np.zeros(len(second.hypothesis.directions))])
     start[:] += second.start
-    fitted = refine(problem, both, start, origin)
-    return replace(second, hypothesis=both), fitted, True
+    return second, _shaped(problem, origin, refine(problem, both, start, origin)), True
 
 
 Trial = tuple[Screened, Fitted, bool]
@@ -133,10 +136,22 @@ def _refined(problem: Problem, origin: Point, screened: list[Screened], none: Fi
             say(f"{one.hypothesis.effect}, on the full model")
             rival = RIVAL * min((fit.misfit for _, fit, refined in found if refined), default=float("inf"))
             with suppress(SimulationError):
-                start = best_start(problem, one.hypothesis, one.start, origin, none)
-                fitted, closer = refine(problem, one.hypothesis, start, origin, rival), True
+                start = best_start(problem, one.hypothesis, one.start, origin, none, expected=one.misfit)
+                fitted, closer = _shaped(problem, origin, refine(problem, one.hypothesis, start, origin, rival), rival), True
         found.append((one, fitted, closer))
     return found
+
+
+def _shaped(problem: Problem, origin: Point, fitted: Fitted, rival: float = float("inf")) -> Fitted:
+    """The fit with what shapes its effects free as well (a frequency, a yield curvature), where more than noise is left."""
+    assert fitted.hypothesis is not None
+    longest = max(float(run.time[-1] - run.time[0]) for run in problem.runs)
+    shapes = [shape for part in fitted.hypothesis.parts or (fitted.hypothesis,) if (shape := shape_of(part, longest))]
+    if not shapes or not LEFT * len(problem.data) < fitted.misfit < rival:
+        return fitted
+    whole = replace(together(fitted.hypothesis, *shapes), effect=fitted.hypothesis.effect)
+    freed = refine(problem, whole, np.concatenate([fitted.coefficients, np.zeros(len(shapes))]), origin, rival)
+    return freed if freed.misfit < WORTH * fitted.misfit else fitted
 
 
 def score(misfit: float, count: int, price: float = 0.0) -> float:
@@ -147,20 +162,23 @@ def score(misfit: float, count: int, price: float = 0.0) -> float:
 def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fitted, found: list[Trial]) -> Diagnosis:
     count = len(problem.data)
     excess = max(none.misfit / count - 1.0, 0.0)
-    scores = {"adequate": score(none.misfit, count), "unknown": score(count * (1.0 + UNEXPLAINED * excess), count, 6.0)}
+    scores = {"adequate": score(none.misfit, count), "unknown": score(count * (1.0 + UNEXPLAINED * excess), count, UNKNOWN)}
     for one, fitted, _ in found:
-        scores[one.hypothesis.effect] = score(fitted.misfit, count, one.price)
+        scores[_name(fitted)] = score(fitted.misfit, count, price(fitted.hypothesis or one.hypothesis, one.alternatives))
     top = max(scores.values())
     weights = {name: float(np.exp(value - top)) for name, value in scores.items()}
     probabilities = {name: weight / sum(weights.values()) for name, weight in weights.items()}
     ranking = tuple(
-        Candidate(
-            fitted, scores[one.hypothesis.effect], probabilities[one.hypothesis.effect], closer, one.visible, _least(one, count)
-        )
-        for one, fitted, closer in sorted(found, key=lambda item: -scores[item[0].hypothesis.effect])
+        Candidate(fitted, scores[_name(fitted)], probabilities[_name(fitted)], closer, one.visible, _least(one, count))
+        for one, fitted, closer in sorted(found, key=lambda item: -scores[_name(item[1])])
     )
     verdict, kind = _verdict(probabilities, ranking)
     return Diagnosis(campaign, problem, nominal, none, ranking, probabilities, _alike(found), verdict, kind)
+
+
+def _name(fitted: Fitted) -> str:
+    assert fitted.hypothesis is not None
+    return fitted.hypothesis.effect
 
 
 def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) -> tuple[str | None, str]:
@@ -173,14 +191,11 @@ def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) ->
 
 
 def _least(one: Screened, count: int) -> dict[str, float]:
-    """Least size of each parameter that these data would show: a misfit raised by three tenths.
-
-    Of a pair of effects, only the second's traces were looked at here.
-    """
+    """Least size of each parameter that these data would show: a misfit raised by three tenths."""
     sizes = np.sqrt(0.3 * count) / np.maximum(np.linalg.norm(one.sideways, axis=0), 1e-300)
     return {
         key: float(size * abs(amount))
-        for size, direction in zip(sizes, one.hypothesis.directions[-len(sizes) :], strict=True)
+        for size, direction in zip(sizes, one.hypothesis.directions, strict=False)
         for key, amount in direction.changes.items()
         if amount
     }

@@ -1,6 +1,6 @@
 """Fits of one hypothesis: Gauss and Newton's method on plant and effect together, within bounds and priors."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from comprope.errors import SimulationError
 
 from .hypotheses import NUISANCES, Direction, Hypothesis
-from .linear import directions_of, linearised, point_of
+from .linear import directions_of, linearised, misfits, point_of
 from .point import Point, Predictions
 from .problem import Problem, Solution, scale_of, solve
 
@@ -18,7 +18,8 @@ Floats = NDArray[np.float64]
 ENOUGH = 2e-3  # of the number of data: a fall of the cost below this ends the iteration
 ROUNDS = 15
 TRUSTED = 3  # rounds after which what a fit expects is believed: friction answers to its size by far other than a line
-HALVINGS = 3
+HOPELESS = 20.0  # times the rival that a fit may expect in these rounds before it is given up all the same
+SHORTER = (0.3, 0.1, 0.03)  # of a step that leads uphill
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,8 @@ def refine(
         scale = scale_of(best.misfit, count)
         solution = solve(problem.data - problem.whitened(best.predictions), best.by, directions, best.coefficients, scale)
         best = replace(best, deviation=solution.deviation)
-        if best.cost(scale) - solution.cost < ENOUGH * scale * count or (done >= TRUSTED and solution.misfit > rival):
+        hopeless = solution.misfit > rival * (1.0 if done >= TRUSTED else HOPELESS)
+        if hopeless or best.cost(scale) - solution.cost < ENOUGH * scale * count:
             break
         found = _downhill(problem, best, solution, base, scale)
         gain, best = best.cost(scale) - found.cost(scale), found
@@ -88,18 +90,32 @@ def _evaluate(
     predictions, by = known or linearised(problem, hypothesis, x, base)
     residual = problem.data - problem.whitened(predictions)
     misfit = float(residual @ residual)
-    penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, directions, strict=True)))
     point, none = point_of(hypothesis, list(x), base), np.zeros(len(x))
-    return Fitted(hypothesis, point, predictions, x, none, by, misfit, penalty)
+    return Fitted(hypothesis, point, predictions, x, none, by, misfit, _penalty(x, directions))
+
+
+def _penalty(x: Floats, directions: Sequence[Direction]) -> float:
+    return float(sum((c / one.prior) ** 2 for c, one in zip(x, directions, strict=True)))
 
 
 def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, scale: float) -> Fitted:
     """The solution's point, or one nearer to the present where that one is worse than it or cannot be simulated."""
     step, directions = solution.coefficients - best.coefficients, directions_of(best.hypothesis)
-    for _ in range(HALVINGS):
+    for x in _lengths(problem, best, step, base, scale, directions):
         with suppress(SimulationError):
-            found = _evaluate(problem, best.hypothesis, best.coefficients + step, base, directions)
+            found = _evaluate(problem, best.hypothesis, x, base, directions)
             if found.cost(scale) < best.cost(scale):
                 return replace(found, deviation=solution.deviation)
-        step = 0.3 * step
     return best
+
+
+def _lengths(
+    problem: Problem, best: Fitted, step: Floats, base: Point, scale: float, directions: Sequence[Direction]
+) -> Iterator[Floats]:
+    """Where the whole step leads, then the best of the shorter ones, which are looked at without derivatives first."""
+    yield best.coefficients + step
+    nearer = [best.coefficients + share * step for share in SHORTER]
+    missed = misfits(problem, best.hypothesis, nearer, base)
+    costs = [misfit + scale * _penalty(x, directions) for misfit, x in zip(missed, nearer, strict=True)]
+    if min(costs) < best.cost(scale):
+        yield nearer[int(np.argmin(costs))]

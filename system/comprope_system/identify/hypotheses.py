@@ -35,6 +35,7 @@ def _plant(key: str, prior: float) -> Direction:
 
 
 CLOCK = "clock.offset"
+SIZE = 30.0  # of an effect's typical value: how widely its size is expected; what a size costs is counted apart
 
 # How well a plant's data sheet is usually known: relative standard deviations.
 NUISANCES = (
@@ -145,8 +146,10 @@ def of_instruments(channels: Mapping[str, Channel]) -> list[Hypothesis]:
     """One hypothesis for each fault of each channel; an offset shows only where the channel is absolute."""
     found = []
     for column, channel in channels.items():
-        found.append(_fault("sensor_gain", column, 0.02, 10.0, 1.0))
+        # A wrong sign or unit is a gain too.
+        found.append(_fault("sensor_gain", column, 0.02, 100.0, 1.0))
         found.append(_fault("sensor_delay", column, 0.01, 10.0, 0.0))
+        found.append(_fault("sensor_drift", column, channel.scale * (channel.noise or 0.1) / 60.0, 100.0, 0.0))
         if channel.reference == "absolute":
             found.append(_fault("sensor_offset", column, channel.scale * (channel.noise or 0.1), 30.0, 0.0))
     return found
@@ -166,7 +169,7 @@ def _direction(effect: type[Effect], one: Quantity, probe: float | None) -> Dire
     """The amplitude as a coefficient of its typical value; of a value to try it may stray by a factor of three."""
     key, size = f"effects.{effect.name}.{one.name}", probe if probe is not None else one.nominal
     lower, upper = sorted((one.minimum / size, one.maximum / size))
-    return Direction(key, {key: size}, 3.0, max(lower, 0.0) if probe is not None else lower, upper)
+    return Direction(key, {key: size}, SIZE, max(lower, 0.0) if probe is not None else lower, upper)
 
 
 def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: dict[str, float]) -> Hypothesis:
@@ -175,7 +178,7 @@ def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: d
     amplitude, phase = (f"effects.{effect.name}.{name}" for name in effect.polar)
     size = directions[0].changes[amplitude]
     pair = tuple(
-        Direction(f"{amplitude}.{word}", {amplitude: size, phase: angle}, 3.0, -float("inf"), float("inf"))
+        Direction(f"{amplitude}.{word}", {amplitude: size, phase: angle}, SIZE, -float("inf"), float("inf"))
         for word, angle in (("cosine", 0.0), ("sine", 0.5 * pi))
     )
     return Hypothesis(effect.name, pair, fixed, (amplitude, phase))

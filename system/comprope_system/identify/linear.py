@@ -7,7 +7,7 @@ from math import pi, remainder
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.rope.effects import RopeModel
+from comprope.rope.effects import REGISTRY, RopeModel
 from comprope.rope.model import values_of
 from comprope.rope.modelfile import with_changes
 from comprope.rope.slots import DECLARED
@@ -16,6 +16,7 @@ from .campaign import Channel, Run
 from .hypotheses import CLOCK, NUISANCES, Direction, Hypothesis
 from .point import Point, Predictions
 from .problem import Problem
+from .replay import referred
 from .sensitivities import replay_with_sensitivities
 
 Floats = NDArray[np.float64]
@@ -49,6 +50,12 @@ def _merged(
     return {file: {**first.get(file, {}), **second.get(file, {})} for file in dict.fromkeys([*first, *second])}
 
 
+def misfits(problem: Problem, hypothesis: Hypothesis | None, tried: Sequence[Floats], base: Point) -> list[float]:
+    """Sums of squares at some coefficients (k,); infinite where the model cannot be simulated."""
+    found = problem.attempts(*(point_of(hypothesis, list(x), base) for x in tried))
+    return [float(np.sum((problem.data - problem.whitened(at)) ** 2)) if at else float("inf") for at in found]
+
+
 def linearised(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> tuple[Predictions, Floats]:
     """Predictions at the coefficients x (k,), and their derivatives (N, k), from one replay of each run.
 
@@ -65,17 +72,19 @@ def linearised(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base:
     ]
     found = dict(zip((run.file for run in problem.runs), (job.result() for job in jobs), strict=True))
     at = {(file, column): values for file, (shown, _) in found.items() for column, values in shown.items()}
-    columns = [_column(problem, hypothesis, k, found, at) for k in range(len(directions))]
+    columns = [_column(problem, hypothesis, here, k, found, at) for k in range(len(directions))]
     return at, np.column_stack(columns) if columns else np.zeros((len(problem.data), 0))
 
 
-def _column(problem: Problem, hypothesis: Hypothesis | None, k: int, found: Mapping[str, Tangents], at: Predictions) -> Floats:
-    """Derivatives (N,) by coefficient k."""
+def _column(
+    problem: Problem, hypothesis: Hypothesis | None, here: Point, k: int, found: Mapping[str, Tangents], at: Predictions
+) -> Floats:
+    """Derivatives (N,) by coefficient k at the point `here`."""
     if k < len(NUISANCES) and NUISANCES[k].name == CLOCK:
         runs = {run.file: run for run in problem.runs}
         return problem.column({place: _by_delay(runs[place[0]], value) for place, value in at.items()})
     if hypothesis and k >= len(NUISANCES) and hypothesis.faulty[k - len(NUISANCES)]:
-        return _by_instrument(problem, hypothesis.directions[k - len(NUISANCES)], at)
+        return _by_instrument(problem, hypothesis.directions[k - len(NUISANCES)], here, at)
     return problem.column({(file, column): values for file, (_, by) in found.items() for column, values in by.get(k, {}).items()})
 
 
@@ -91,7 +100,9 @@ def tangents(
         change = {key: _apart(key, value, values.get(key, DECLARED[key].neutral)) / step for key, value in moved.items()}
         if amounts := {key: amount for key, amount in change.items() if amount}:
             directions[str(k)] = amounts
-    shown, by = replay_with_sensitivities(model, replace(run, changes=changes), channels, directions)
+    # Wires that stick and slip change the rope's stiffness within a step: with the older factor derivatives may grow without end.
+    exact = any(REGISTRY[key.split(".")[1]].states for key in values if key.startswith("effects."))
+    shown, by = replay_with_sensitivities(model, replace(run, changes=changes), channels, directions, exact=exact)
     return shown.values, {int(k): one for k, one in by.items()}
 
 
@@ -106,7 +117,7 @@ def by_effect(problem: Problem, hypothesis: Hypothesis, origin: Point, at: Predi
     The step is the whole typical value, since some effects do little until they are of some size.
     """
     if hypothesis.is_instrument:
-        return np.column_stack([_by_instrument(problem, one, at) for one in hypothesis.directions])
+        return np.column_stack([_by_instrument(problem, one, origin, at) for one in hypothesis.directions])
     y = problem.whitened(at)
     return np.column_stack([problem.whitened(one) - y for one in problem.predictions(*unit_points(origin, hypothesis))])
 
@@ -117,15 +128,20 @@ def unit_points(origin: Point, hypothesis: Hypothesis) -> list[Point]:
     return [with_effect(origin, hypothesis, [float(j == k) for j in range(count)]) for k in range(count)]
 
 
-def _by_instrument(problem: Problem, direction: Direction, at: Predictions) -> Floats:
-    """Derivative (N,) of one channel by its gain, offset or delay, from the predictions themselves."""
+def _by_instrument(problem: Problem, direction: Direction, here: Point, at: Predictions) -> Floats:
+    """Derivative (N,) of one channel by its gain, offset, delay or drift, from the predictions themselves."""
     ((key, size),) = direction.changes.items()
     _, effect, column = key.split(".", 2)
     moved = {}
     for run in problem.runs:
         value = at[run.file, column]
-        slope = {"sensor_gain": value, "sensor_offset": np.ones_like(value)}.get(effect)
-        moved[run.file, column] = size * (_by_delay(run, value) if slope is None else slope)
+        slope = {
+            "sensor_gain": value / here.effects.get(key, 1.0),
+            "sensor_offset": np.ones_like(value),
+            "sensor_drift": run.time - run.time[0],
+            "sensor_delay": _by_delay(run, value),
+        }[effect]
+        moved[run.file, column] = size * referred({column: slope}, run, problem.campaign.channels)[column]
     return problem.column(moved)
 
 

@@ -13,15 +13,20 @@ from .clock import clock
 from .phases import phases
 from .point import Predictions
 from .record import LEAST, Record, by_column, records_of
-from .samples import outliers
+from .samples import ENOUGH, contradicted, outliers, spread_of_steps
 
 ALIKE = 0.7  # correlation of measured and predicted that a remark about sign or unit needs
 
 
-def remarks(campaign: Campaign, predictions: Predictions) -> list[str]:
-    """Sentences about the data, the most disturbing first; empty when there is nothing to say."""
+def remarks(campaign: Campaign, predictions: Predictions, plain: Predictions | None = None) -> list[str]:
+    """Sentences about the data, the most disturbing first; empty when there is nothing to say.
+
+    `plain` are predictions in which no instrument's fault is fitted away; by default those given.
+    """
     records = list(records_of(campaign, predictions))
-    of_channels = [sentence for rule in CHANNEL_RULES for group in by_column(records) for sentence in rule(group)]
+    untouched = list(records_of(campaign, plain or predictions))
+    of_channels = [sentence for rule in PLAIN_RULES for group in by_column(untouched) for sentence in rule(group)]
+    of_channels += [sentence for rule in CHANNEL_RULES for group in by_column(records) for sentence in rule(group)]
     of_runs = [sentence for run in campaign.runs for sentence in _of_run(run)]
     return [*campaign.notes, *of_channels, *clock(records), *of_runs, *(note for run in campaign.runs for note in run.notes)]
 
@@ -63,19 +68,18 @@ def noise(group: Sequence[Record]) -> Iterator[str]:
     if not channel.noise or not known:
         return
     seen = float(np.median(known)) / channel.scale
-    if not 0.6 < seen / channel.noise < 1.6:
+    if contradicted(channel.noise, seen):
         told = "more" if seen > channel.noise else "less"
         stated = f"{channel.column}: noise = {channel.noise:g} {channel.unit} is stated"
-        yield f"{stated}, but at rest it is {seen:.2g} {channel.unit}, {told} than that"
+        yield f"{stated}, but at rest it is {seen:.2g} {channel.unit}, {told} than that; the latter is taken"
 
 
 def seen_noise(record: Record) -> float | None:
     """Standard deviation [SI] of a channel at rest, from steps between samples; None where it rests too briefly."""
     rest = record.measured[record.run.rest & np.isfinite(record.measured)]
-    if len(rest) < LEAST:
+    if len(rest) < ENOUGH:
         return None
-    steps = np.diff(rest)
-    return 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / 2.0**0.5
+    return spread_of_steps(rest)
 
 
 def drift(group: Sequence[Record]) -> Iterator[str]:
@@ -135,7 +139,9 @@ def gaps(group: Sequence[Record]) -> Iterator[str]:
         yield f"{name}: shows values where the rope's end has passed the sensor, in {', '.join(extra)}; they are left out"
 
 
-CHANNEL_RULES: tuple[Callable[[Sequence[Record]], Iterator[str]], ...] = (sign, unit, noise, drift, far_out, gaps)
+Rule = Callable[[Sequence[Record]], Iterator[str]]
+PLAIN_RULES: tuple[Rule, ...] = (sign, unit, drift)
+CHANNEL_RULES: tuple[Rule, ...] = (noise, far_out, gaps)
 
 
 # -- runs --------------------------------------------------------------------------------------------

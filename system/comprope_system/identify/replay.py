@@ -45,12 +45,13 @@ def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: fl
 
 
 def instrument(model: RopeModel, column: str, time: Floats, value: Floats) -> Floats:
-    """What a channel's instrument makes of the true value: delayed, with its gain, from its offset."""
-    gain, offset, delay = (
-        (getattr(model.effects, name) or {}).get(column) for name in ("sensor_gain", "sensor_offset", "sensor_delay")
+    """What a channel's instrument makes of the true value: delayed, with its gain, from its offset, which may drift."""
+    gain, offset, delay, drift = (
+        (getattr(model.effects, name) or {}).get(column)
+        for name in ("sensor_gain", "sensor_offset", "sensor_delay", "sensor_drift")
     )
     late = _delayed(time, value, delay) if delay else value
-    return (1.0 if gain is None else gain) * late + (offset or 0.0)
+    return (1.0 if gain is None else gain) * late + (offset or 0.0) + (drift or 0.0) * (time - time[0])
 
 
 def _delayed(time: Floats, value: Floats, delay: float) -> Floats:

@@ -39,7 +39,7 @@ def judge(diagnosis: Diagnosis, executor: Executor, base: Point | None = None) -
     refitted = compare(campaign, executor, diagnosis.none.point, diagnosis.none.predictions)
     candidates = {k: compare(campaign, executor, one.point, one.predictions) for k, one in fits.items()}
     found = Judged(diagnosis, before, refitted, candidates, ())
-    return Judged(diagnosis, before, refitted, candidates, tuple(remarks(campaign, found.best.predictions)))
+    return Judged(diagnosis, before, refitted, candidates, tuple(remarks(campaign, found.best.predictions, before.predictions)))
 
 
 def to_json(judged: Judged) -> dict[str, Any]:

@@ -22,6 +22,7 @@ MEMORY = 0.5  # s, correlation time of the discrepancy
 SHARE = 0.002  # of a channel's rms variation: its discrepancy's standard deviation
 LEAST = 0.15  # of a channel's noise: the same, at least
 OUTLIER = 6.0  # standard deviations from the running median
+ENOUGH = 100  # samples at rest that may contradict a stated noise
 
 
 @dataclass(frozen=True)
@@ -74,13 +75,24 @@ def part(run: Run, channel: Channel, value: Floats, visible: NDArray[np.bool_]) 
 
 
 def sample_noise(run: Run, channel: Channel, value: Floats) -> float:
-    """Standard deviation [SI] of one sample: as stated, or from the steps between samples at rest, free of drift."""
-    if channel.noise:
-        return channel.noise * channel.scale
-    rest = value[run.rest & np.isfinite(value)]
-    steps = np.diff(rest if len(rest) >= 20 else value[np.isfinite(value)])
-    spread = 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / np.sqrt(2.0)
-    return max(spread, 1e-9 + 1e-4 * float(np.nanstd(value)))
+    """Standard deviation [SI] of one sample: as stated unless the rest before the trip contradicts that, or as seen there."""
+    stated, rest = (channel.noise or 0.0) * channel.scale, value[run.rest & np.isfinite(value)]
+    if stated:
+        seen = spread_of_steps(rest) if len(rest) >= ENOUGH else stated
+        return seen if contradicted(stated, seen) else stated
+    seen = spread_of_steps(rest if len(rest) >= 20 else value[np.isfinite(value)])
+    return max(seen, 1e-9 + 1e-4 * float(np.nanstd(value)))
+
+
+def spread_of_steps(value: Floats) -> float:
+    """Standard deviation of white noise, from the steps between samples, so that neither drift nor outliers count."""
+    steps = np.diff(value)
+    return 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / 2.0**0.5
+
+
+def contradicted(stated: float, seen: float) -> bool:
+    """Whether a stated noise is another than what is seen; far less than stated may be coarse digits instead."""
+    return seen > 1.6 * stated or 0.2 * stated < seen < 0.6 * stated
 
 
 def outliers(value: Floats, noise: float, window: int = 11) -> NDArray[np.bool_]:

@@ -16,8 +16,8 @@ from .spectrum import frequencies
 from .turning import solve_turned
 
 Floats = NDArray[np.float64]
-LOOKS = 40.0  # independent looks that a campaign is worth
-PRICE = 1.5  # of the score, for each parameter of an effect
+LOOKS = 200.0  # independent looks that a campaign is worth
+PRICE = 2.5  # about half the logarithm of LOOKS: of the score, for each parameter of an effect
 TURN = 1.0  # the same, for each run's own phase
 COARSEST = 0.3  # of the sheave's radius: elements of a first look
 
@@ -37,15 +37,15 @@ class Screened:
     alternatives: int
 
     @property
-    def price(self) -> float:
-        """What the score is lowered by for all that was free to choose."""
-        turns = sum(len(part.turned) for part in self.hypothesis.parts or (self.hypothesis,))
-        return PRICE * (1 + len(self.hypothesis.directions) - turns) + TURN * turns + log(self.alternatives)
-
-    @property
     def strained(self) -> float:
         """The misfit, raised as the price lowers the score."""
-        return self.misfit * exp(2.0 * self.price / LOOKS)
+        return self.misfit * exp(2.0 * price(self.hypothesis, self.alternatives) / LOOKS)
+
+
+def price(hypothesis: Hypothesis, alternatives: int) -> float:
+    """What the score of a hypothesis is lowered by for all that was free to choose."""
+    turns = sum(len(part.turned) for part in hypothesis.parts or (hypothesis,))
+    return PRICE * (1 + len(hypothesis.directions) - turns) + TURN * turns + log(alternatives)
 
 
 def screen(problem: Problem, origin: Point, nominal: Predictions, beside: Floats, none: Fitted) -> list[Screened]:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from comprope.errors import SimulationError
 from comprope.rope.effects import RopeModel
 from comprope.rope.modelfile import with_changes
 from comprope.rope.sensitivity import Direction, SensitiveRope
@@ -30,12 +31,14 @@ def replay_with_sensitivities(
     A direction maps keys of the model to amounts, `{"rope.bending_stiffness": 1.0}`; its derivative is in the channel's SI
     unit per one times these amounts, which add to what the run itself has changed. `at` sets values that do nothing before the
     direction does, and `exact` spends more on accuracy (see `SensitiveRope`). Derivatives count from rest where the channel
-    does, and are NaN where the rope is not in view.
+    does, and are NaN where the rope is not in view. Raises `SimulationError` where the run or a derivative fails.
     """
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
     rope = SensitiveRope(changed, directions, at, exact=exact)
     grid = run.time[0] + GRID * np.arange(int(np.ceil((run.time[-1] - run.time[0]) / GRID)) + 2)
     seen, hidden = _drive(rope, run, grid, channels)
+    if not all(np.isfinite(one).all() for one in seen.values()):
+        raise SimulationError(f"{run.file}: derivatives along the run grew beyond all numbers")
     sampled = {column: CubicSpline(grid, seen[column])(run.time) for column in channels}
     for column, values in sampled.items():
         values[np.interp(run.time, grid, hidden[column]) > 0.0] = np.nan

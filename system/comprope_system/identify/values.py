@@ -79,7 +79,7 @@ def _value(key: str, value: float, deviation: float) -> Value:
 def unit_of(effect: str, name: str) -> str:
     """The unit of an effect's parameter, with a space before it; nothing for a pure number."""
     declared = _declared(f"effects.{effect}.{name}")
-    unit = declared.unit if declared else {"sensor_delay": "s"}.get(effect, "1")
+    unit = declared.unit if declared else {"sensor_delay": "s", "sensor_drift": "1/s"}.get(effect, "1")
     return "" if unit == "1" else f" {unit.replace('.', '·')}"
 
 

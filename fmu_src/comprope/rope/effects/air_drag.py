@@ -19,7 +19,7 @@ class AirDrag(Effect):
     """Air drag normal to the rope."""
 
     name = "air_drag"
-    drag_coefficient: float = quantity("1", "drag coefficient of the rope across the flow", 0.0, 10.0, nominal=1.1, off=0.0)
+    drag_coefficient: float = quantity("1", "drag coefficient of the rope across the flow", 0.0, 1000.0, nominal=1.1, off=0.0)
     air_density: float = quantity("kg/m3", "density of the air", 0.1, 5.0, default=1.2)
 
 

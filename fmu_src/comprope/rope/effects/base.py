@@ -39,6 +39,7 @@ INSTRUMENT = {
     "sensor_gain": "what a channel shows over what is there, by the channel's column",
     "sensor_offset": "what a channel shows when there is nothing, in SI units, by the channel's column",
     "sensor_delay": "how late a channel shows it [s], by the channel's column",
+    "sensor_drift": "how fast a channel's offset grows from a record's start, in SI units a second, by the channel's column",
 }
 
 

@@ -1,0 +1,54 @@
+"""Faults of instruments and of the files are named as such, not fitted away by the rope."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from comprope_system.identify.campaign import load_campaign
+from comprope_system.identify.diagnose import diagnose
+from comprope_system.identify.jobs import threads
+from comprope_system.identify.results import judge
+from comprope_system.identify.samples import sample_noise
+
+from . import virtual_lift
+
+
+@pytest.fixture(scope="module")
+def executor():
+    with threads() as ready:
+        yield ready
+
+
+@pytest.mark.parametrize(
+    ("effect", "value", "told"),
+    [
+        ("sensor_gain", -1.0, "its sign is probably wrong"),
+        ("sensor_gain", 0.1, 'its unit is probably "cm", not "mm"'),
+        ("sensor_drift", 4e-4, "drifts by about"),  # m/s: 3.6 mm over a record, 12 times the noise
+    ],
+)
+def test_a_fault_of_one_channel_is_the_instruments(tmp_path, executor, effect, value, told):
+    key = f"effects.{effect}.cw_low"
+    campaign = load_campaign(virtual_lift.campaign(tmp_path / "fault", {key: value}))
+    found = diagnose(campaign, executor)
+    assert (found.verdict, found.kind) == (effect, "instrument")
+    best = found.ranking[0]
+    # Noise of 0.3 mm leaves a gain uncertain by a per cent or two, a drift by less.
+    assert best.hypothesis.parameters(best.fitted.effect_coefficients)[key] == pytest.approx(value, rel=0.05)
+    assert any(told in one for one in judge(found, executor).remarks)
+
+
+def test_a_stated_noise_that_the_rest_contradicts_is_not_believed():
+    random, true = np.random.default_rng(1), 3e-4
+    value = true * random.standard_normal(400) + 1e-3 * np.linspace(0.0, 1.0, 400)  # it drifts as well
+    run = SimpleNamespace(rest=np.arange(400) < 200)
+    for factor, taken in ((0.4, true), (0.8, 0.8 * true), (1.3, 1.3 * true), (3.0, true)):
+        stated = virtual_lift.CHANNELS["cw_low"].model_copy(update={"noise": factor * true * 1e3})
+        # Two hundred samples give the noise within 9 %, twice over.
+        assert sample_noise(run, stated, value) == pytest.approx(taken, rel=0.18)
+
+
+def test_a_noise_far_below_what_is_stated_may_be_coarse_digits():
+    run, channel = SimpleNamespace(rest=np.ones(200, bool)), virtual_lift.CHANNELS["cw_low"]
+    assert sample_noise(run, channel, np.zeros(200)) == channel.noise * channel.scale
