@@ -29,7 +29,7 @@ class Table:
     def numeric(self, column: int) -> bool:
         """Whether a column holds numbers only."""
         cells = [row[column] for row in self.rows]
-        return bool(cells) and all(cell[:1] in "-−+.0123456789" and len(cell) < 14 for cell in cells if cell)
+        return bool(cells) and all(cell[:1] in "-−+.0123456789" and len(cell) < 22 for cell in cells if cell not in ("", "–"))
 
     def mark(self, cell: str) -> str:
         """The class of a cell that is a mark such as "yes" or "fail"; empty for any other."""

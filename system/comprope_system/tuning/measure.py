@@ -17,15 +17,15 @@ from ..hanging import side_string
 from ..ride import record, side_shape
 from .bobbing import bobbing
 from .bounce import Hoist
-from .elements import at_places
+from .elements import ELEMENTS, nodes
 from .motion import Moves, moves
 from .swaying import Rope, at_rest, sway
 
 Floats = NDArray[np.float64]
 
 SIDES = {"car": 1.0, "counterweight": -1.0}
-PLACES = np.linspace(0.04, 0.98, 25)  # of a side's length, from the axle to the end
-READ = at_places(PLACES).T
+READ = slice(4, ELEMENTS, 4)  # nodes that are looked at
+PLACES = nodes()[READ]  # of a side's length, from the axle to the end
 CLEAR = 6.0  # bending lengths above the axle: below that the rope leans on the sheave
 TAIL = 1.25  # slowest periods watched after the trip
 DT = 0.03  # s, step of the search; the slowest swings take seconds
@@ -79,7 +79,7 @@ def displacements(case: Case, moved: Moves) -> dict[str, tuple[Floats, Floats]]:
     """Lengths (n,) [m] and outward departures from rest (n, places) [m] on the small rope, by side."""
     found = {}
     for side, (length, speed, acceleration, running, press) in case.ends(moved).items():
-        outward = sway(case.rope, moved.dt, length, speed, acceleration, running, press) @ READ
+        outward = sway(case.rope, moved.dt, length, speed, acceleration, running, press)[:, READ]
         found[side] = length, outward - at_rest(case.rope, length, PLACES)
     return found
 
