@@ -1,4 +1,4 @@
-"""Tuning of ten trips, or those named, in the 200 m building: minutes per tuning, swing against the best S-curve, time for quiet, another sheave.
+"""Tuning of ten trips, or those named, in the 200 m building: swing against the best S-curve, time for quiet, another sheave.
 
     python benchmarks/tuning.py [--jobs 2] [--times 1.1,1.3] [--trips 0:4,0:8] [--out results/tuning]
     python benchmarks/tuning.py --read results/tuning/result.json
@@ -96,8 +96,12 @@ def tables(result: Mapping[str, Any]) -> list[str]:
         times = sum(common["times"]) / sum(trip["present"]["time"] for trip in trips)
         lines += ["", f"one controller, {common['kind']}, {times:.3f} of the present travel times", ""]
         pairs = zip(trips, common["full"], strict=True)
-        lines += head("trip", "present", "tuned")
-        lines += [row(name(trip), mm(trip["present"]["full"]), mm(full)) for trip, full in pairs]
+        lines += head("trip", "of the present time", "present", "tuned")
+        shares = [time / trip["present"]["time"] for trip, time in zip(trips, common["times"], strict=True)]
+        lines += [
+            row(name(trip), f"{share:.2f}", mm(trip["present"]["full"]), mm(full))
+            for share, (trip, full) in zip(shares, pairs, strict=True)
+        ]
     return lines
 
 

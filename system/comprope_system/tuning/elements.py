@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-ELEMENTS = 96  # the sheave's ringing makes waves a seventeenth as long as a side of 200 m
+ELEMENTS = 96  # the car's bounce on its hoist ropes makes waves a seventeenth as long as a side of 200 m
 
 
 @dataclass(frozen=True)

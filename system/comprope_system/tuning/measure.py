@@ -15,7 +15,6 @@ from comprope.rope.model import CompensationRope
 
 from ..hanging import side_string
 from ..ride import record, side_shape
-from .bobbing import bobbing
 from .bounce import Hoist
 from .elements import ELEMENTS, nodes
 from .motion import Moves, moves
@@ -58,16 +57,18 @@ class Case:
         return self.pit + (car if side == "car" else self.height - car)
 
     def ends(self, moved: Moves) -> dict[str, Floats]:
-        """Length [m], speed and acceleration of the end, up positive, the rope's speed at the sheave, up positive, and the press
-        on the groove [N], (5, n) by side.
-        """
+        """Length [m], speed and acceleration of the end, up positive, and the press on the groove [N] (4, n), by side."""
         bounces = self.hoist.ends(moved) if self.hoist else (0.0, 0.0)
-        ends = np.array([
+        ends = [
             np.array([self.length(side, moved.position), sign * moved.speed, sign * moved.acceleration]) + added
             for (side, sign), added in zip(SIDES.items(), bounces, strict=True)
-        ])  # fmt: skip
-        faster, press = bobbing(self.rope, moved.dt, ends[:, 0], ends[:, 2])
-        return {side: np.vstack([ends[k], ends[k, 1] + faster[k], press[k]]) for k, side in enumerate(SIDES)}
+        ]
+        turning, lifting = (0.5 * (ends[0][2] - sign * ends[1][2]) for sign in (1.0, -1.0))
+        level = self.rope.weight + self.rope.lifting * lifting
+        return {
+            side: np.vstack([end, level + sign * self.rope.turning * turning])
+            for (side, sign), end in zip(SIDES.items(), ends, strict=True)
+        }
 
 
 def tail(model: RopeModel, destination: float) -> float:
@@ -78,8 +79,8 @@ def tail(model: RopeModel, destination: float) -> float:
 def displacements(case: Case, moved: Moves) -> dict[str, tuple[Floats, Floats]]:
     """Lengths (n,) [m] and outward departures from rest (n, places) [m] on the small rope, by side."""
     found = {}
-    for side, (length, speed, acceleration, running, press) in case.ends(moved).items():
-        outward = sway(case.rope, moved.dt, length, speed, acceleration, running, press)[:, READ]
+    for side, (length, speed, acceleration, press) in case.ends(moved).items():
+        outward = sway(case.rope, moved.dt, length, speed, acceleration, press)[:, READ]
         found[side] = length, outward - at_rest(case.rope, length, PLACES)
     return found
 

@@ -20,7 +20,7 @@ Cost = Callable[[list[Swing]], float]
 SAMPLES, POLISHED, STEPS = 64, 2, 60
 INFEASIBLE = 1e9
 SAME = 0.06  # shares all nearer than that are the same candidate
-ALIKE = 1e-3  # of a cost: nearer than that too, however far the shares: limits that a short trip never reaches
+ALIKE = 1e-2  # of a cost: nearer than that too, however far the shares: a short trip never reaches its limit of speed
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,7 @@ y = b at the axle and 0 at the end the weak form gives, per rho L, with the cons
 
     M y'' + (2 (v/L) G + c/rho M) y' + (N/(rho L^2) K + (v/L)^2 (K - S) + (g + v')/L H + (v' + c/rho v)/L G) y = 0
 
-N and the v that b follows are those at the sheave, which rings on the elastic rope (`bobbing.py`).
-Left out: tension from swinging, bending away from the sheave, effects other than external damping.
+Left out: the sheave's bounce, tension from swinging, bending away from the sheave, effects other than external damping.
 Unlike the full model it holds only where the rope wraps the sheave, N r^2 > EI / 2.
 """
 
@@ -44,8 +43,8 @@ STARTS = 0.02  # m/s: below it friction inside the rope has not turned round yet
 @dataclass(frozen=True)
 class Rope:
     """What one side of a rope is: mass per length [kg/m], weight on the groove of a side [N], the pull that turns the sheave
-    over acceleration [kg], the same that lifts it [kg], bending stiffness [N m2], axial stiffness [N] and damping [N s],
-    radius [m], damping over mass [1/s], gravity [m/s2]; `held`: g0 ... g3.
+    over acceleration [kg], the same that lifts it [kg], bending stiffness [N m2], radius [m], damping over mass [1/s],
+    gravity [m/s2]; `held`: g0 ... g3.
     """
 
     mass_per_length: float
@@ -53,8 +52,6 @@ class Rope:
     turning: float
     lifting: float
     bending_stiffness: float
-    axial_stiffness: float
-    axial_damping: float
     radius: float
     damping: float
     gravity: float
@@ -92,14 +89,11 @@ def rope_of(model: Base) -> Rope:
         )
     turning, lifting = 0.5 * (sheave.inertia / sheave.radius**2 + wrapped), 0.5 * (sheave.mass + wrapped)
     damping = rope.external_damping / rope.mass_per_length
-    return Rope(
-        rope.mass_per_length, weight, turning, lifting, rope.bending_stiffness, rope.axial_stiffness, rope.axial_damping,
-        sheave.radius, damping, g,
-    )  # fmt: skip
+    return Rope(rope.mass_per_length, weight, turning, lifting, rope.bending_stiffness, sheave.radius, damping, g)
 
 
 def still_modes(rope: Rope, length: float) -> tuple[Floats, Floats, Floats]:
-    """Squares of the angular frequencies (k,) at standstill, modes (n - 1, k) at the inner nodes, stiffness over rho L (3, n - 1).
+    """At standstill: squares of the angular frequencies (k,), modes (n - 1, k) at the inner nodes, stiffness over rho L.
 
     The modes have unit mass; the slowest is the first.
     """
@@ -115,15 +109,12 @@ def at_rest(rope: Rope, length: Floats, xi: Floats) -> Floats:
     return np.asarray(rope.offset * (1.0 - np.log1p(slack * xi) / np.log1p(slack)))
 
 
-def sway(
-    rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, running: Floats, press: Floats
-) -> Floats:
+def sway(rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, press: Floats) -> Floats:
     """The outward displacement at the nodes (m, n + 1) [m] at times `dt` [s] apart, from rest.
 
-    `length` [m], `speed` and `acceleration` of the end, up positive [m/s, m/s2], `running` [m/s] the rope's speed at the sheave,
-    `press` [N] on the groove, each (m,).
+    `length` [m], `speed` and `acceleration` of the end, up positive [m/s, m/s2], `press` [N] on the groove, each (m,).
     """
-    M, b = matrices(), rope.offset_at(press, running)
+    M, b = matrices(), rope.offset_at(press, speed)
     found = np.zeros((len(length), ELEMENTS + 1))
     found[0] = at_rest(rope, length[:1], nodes())[0] * b[0] / rope.offset
     found[:, 0] = b
