@@ -1,6 +1,6 @@
-"""Tuning of ten trips in the 200 m building: minutes per tuning, swing against the best S-curve, time for quiet, another sheave.
+"""Tuning of ten trips, or those named, in the 200 m building: swing against the best S-curve, time for quiet, another sheave.
 
-    python benchmarks/tuning.py [--jobs 2] [--times 1.1,1.3] [--out results/tuning]
+    python benchmarks/tuning.py [--jobs 2] [--times 1.1,1.3] [--trips 0:4,0:8] [--out results/tuning]
     python benchmarks/tuning.py --read results/tuning/result.json
 
 Prints tables in Markdown; swings are in mm, during and after the trip. Each trip's search runs on one process.
@@ -96,8 +96,12 @@ def tables(result: Mapping[str, Any]) -> list[str]:
         times = sum(common["times"]) / sum(trip["present"]["time"] for trip in trips)
         lines += ["", f"one controller, {common['kind']}, {times:.3f} of the present travel times", ""]
         pairs = zip(trips, common["full"], strict=True)
-        lines += head("trip", "present", "tuned")
-        lines += [row(name(trip), mm(trip["present"]["full"]), mm(full)) for trip, full in pairs]
+        lines += head("trip", "of the present time", "present", "tuned")
+        shares = [time / trip["present"]["time"] for trip, time in zip(trips, common["times"], strict=True)]
+        lines += [
+            row(name(trip), f"{share:.2f}", mm(trip["present"]["full"]), mm(full))
+            for share, (trip, full) in zip(shares, pairs, strict=True)
+        ]
     return lines
 
 
@@ -106,6 +110,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--times", default="1.1,1.3")
+    parser.add_argument("--trips", default=",".join(TRIPS))
     parser.add_argument("--out", type=Path, default=Path("results/tuning"))
     parser.add_argument("--read", type=Path, help="result.json of an earlier run: only print its tables")
     options = parser.parse_args()
@@ -113,9 +118,10 @@ def main() -> None:
         print("\n".join(tables(json.loads(options.read.read_text(encoding="utf-8")))))
         return
     begin = time.perf_counter()
-    result = run(Request("building200", None, TRIPS, options.times, 0.1, None, 0.5, 0.0, (), options.out, jobs=options.jobs))
+    trips = options.trips.split(",")
+    result = run(Request("building200", None, trips, options.times, 0.1, None, 0.5, 0.0, (), options.out, jobs=options.jobs))
     print("\n".join(tables(result)))
-    print(f"{(time.perf_counter() - begin) / 60.0 / len(TRIPS):.1f} minutes per trip")
+    print(f"{(time.perf_counter() - begin) / 60.0 / len(trips):.1f} minutes per trip")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from comprope.drive.stepping import DriveEngine
 from comprope.rope.model import CompensationRope
 from comprope.rope.modelfile import load, with_changes
 from comprope_system import cli
-from comprope_system.hanging import side_string
+from comprope_system.hanging import HangingString, side_string
 from comprope_system.lift import load_drive
 from comprope_system.presets import model_path
 from comprope_system.ride import side_shape
@@ -23,9 +23,9 @@ from comprope_system.tuning.families import KINDS, Way, course_of, drive_for
 from comprope_system.tuning.free import Goal, free_drive
 from comprope_system.tuning.measure import PLACES, Case, displacements, full_swing, small_swing, tail
 from comprope_system.tuning.motion import moves
-from comprope_system.tuning.search import Search
+from comprope_system.tuning.search import Candidate, Search, _unlike
 from comprope_system.tuning.statespace import rope_model
-from comprope_system.tuning.swaying import at_rest, rope_of
+from comprope_system.tuning.swaying import at_rest, rope_of, still_modes
 from comprope_system.tuning.task import periods
 
 COARSE = {"rope.element_length": 0.1, "solver.step": 0.01}
@@ -127,6 +127,31 @@ def test_the_car_bounces_as_the_drive_s_own() -> None:
     assert error < 0.3 * np.sqrt(np.mean((np.array(seen) - moved.acceleration) ** 2))
 
 
+def test_waves_as_short_as_the_bounce_s_run_as_fast_as_they_should(case: Case) -> None:
+    squares, _, _ = still_modes(case.rope, 41.5)
+    string = HangingString(case.rope.weight, case.rope.mass_per_length, 41.5, case.rope.gravity)
+    for waves in (1, 5, 15, 25):
+        # A thirtieth of the rope's length for a wave's half is under four elements.
+        assert 2.0 * np.pi / np.sqrt(squares[waves - 1]) == pytest.approx(string.period(waves), rel=3e-3)
+
+
+def test_candidates_that_swing_the_same_count_once() -> None:
+    shares = [{"speed": 0.3, "jerk": 0.5}, {"speed": 0.9, "jerk": 0.5}, {"speed": 0.9, "jerk": 0.7}]
+    tried = [Candidate("S-curve", one, DRIVE, [], cost) for one, cost in zip(shares, (1.0, 1.0, 1.1), strict=True)]
+    assert _unlike(tried, ("speed", "jerk"), 3) == [tried[0], tried[2]]
+
+
+def test_the_time_for_quiet_is_searched_again_until_the_full_model_agrees(monkeypatch) -> None:
+    """A rope whose small model promises 0.7 of what the full one leaves, at 1 / factor of the present swing."""
+    monkeypatch.setattr(quiet, "course_of", lambda *_: None)
+    monkeypatch.setattr(quiet, "small_swing", lambda *_: None)
+    monkeypatch.setattr(quiet, "told_of", lambda _, drive, *__: {"time": drive, "full": [1.0, 1.0 / drive]})
+    task = type("Task", (), {"case": lambda _: None, "way": None, "watched": 0.0})()
+    found = quiet._time_for(task, lambda factor: (factor, 0.7 / factor), 0.5, 1.0)
+    assert found["full"][1] <= 0.5
+    assert found["time"] == pytest.approx(2.0, rel=0.06)  # AIM, and the bisection's hundredth
+
+
 def test_no_profile_beats_the_bound_and_a_short_trip_cannot_hide() -> None:
     course = course_of(DRIVE, WAY)
     for period in (2.0, 4.0, 9.0):
@@ -164,7 +189,7 @@ def test_state_space_models_have_the_rope_s_periods_and_offsets(case: Case) -> N
     found = sorted(2.0 * np.pi / abs(pole.imag) for pole in model.poles() if pole.imag > 1e-6)[::-1]
     wanted = [side_string(TOWER, 10.0, side).period() for side in ("car", "counterweight")]
     for period in wanted:
-        assert min(abs(one / period - 1.0) for one in found) < 2e-3  # twelve shape functions
+        assert min(abs(one / period - 1.0) for one in found) < 2e-3  # finite elements
     assert isinstance(model, control.StateSpace)
     gain = model.dcgain()[model.output_labels.index("counterweight_50_percent"), 0]
     rest = at_rest(case.rope, np.array([41.5]), np.array([0.5]))[0, 0] / case.rope.offset

@@ -32,12 +32,21 @@ def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False) -> None:
         typer.echo(context.get_help())
 
 
+PANELS = {  # of the help, commands in the order in which they are met
+    "Simulate": ("simulate", "modes"),
+    "Set beside measurements": ("compare", "diagnose", "add", "journey"),
+    "Choose": ("tune", "design"),
+    "Check": ("verify", "study"),
+}
+
+
 def _register() -> None:
     """Every module of `commands` is a command: the function that has the module's name."""
-    for module in pkgutil.iter_modules(commands.__path__):
-        if not module.name.startswith("_"):
-            function = getattr(importlib.import_module(f"{commands.__name__}.{module.name}"), module.name)
-            app.command(module.name.replace("_", "-"))(function)
+    panels = {name: panel for panel, names in PANELS.items() for name in names}
+    found = [module.name for module in pkgutil.iter_modules(commands.__path__) if not module.name.startswith("_")]
+    for name in [*(one for one in panels if one in found), *(one for one in found if one not in panels)]:
+        function = getattr(importlib.import_module(f"{commands.__name__}.{name}"), name)
+        app.command(name.replace("_", "-"), rich_help_panel=panels.get(name))(function)
 
 
 _register()
@@ -62,7 +71,8 @@ def _explained(error: Exception) -> tuple[int, str]:
     if isinstance(error, typer.Abort):
         return FAILED, "stopped"
     if hasattr(error, "format_message"):  # typer's and click's errors in options and arguments
-        return BAD_INPUT, f"{' '.join(error.format_message().split()).rstrip('.')}; see `comprope --help`"
+        command = getattr(getattr(error, "ctx", None), "command_path", "comprope")
+        return BAD_INPUT, f"{' '.join(error.format_message().split()).rstrip('.')}; see `{command} --help`"
     return FAILED, f"internal error: {type(error).__name__}: {' '.join(str(error).split())}"
 
 

@@ -74,7 +74,8 @@ def _mass(result: Result) -> list[Block]:
     ]  # fmt: skip
     head = ("mass [kg]", "worst trip [mm]", "which", "worst after a trip [mm]", "worst sway [mm]", "car parked at [m]")
     full = Table(
-        ("mass [kg]", "worst trip, full model [mm]"), [(f"{mass:.1f}", f"{1e3 * swing:.2f}") for mass, swing in result["full"]]
+        ("mass [kg]", "worst trip, full model [mm]"), [(f"{mass:.1f}", f"{1e3 * swing:.2f}") for mass, swing in result["full"]],
+        "The worst trip run on the full model, the last mass being the one chosen",
     )
     return [text, Picture("design_mass", _draw_mass(result)), Table(head, rows), full]
 
@@ -103,7 +104,7 @@ def _resonance(result: Result, model: RopeModel, chosen: RopeModel, profile: Pro
     text = (
         "Blue and orange: natural periods of both sides over the car's position, one to three half waves. "
         "Green: trips up from the "
-        "bottom and down from the top landing, at the height where they end and the time they take, dots at "
+        "bottom and down from the top landing, at the height where they end and the time they take, marks at "
         "the floors; where green "
         "crosses blue or orange a trip lasts as long as the rope swings. The band is the building's sway, 5 % to either side."
     )
@@ -160,9 +161,9 @@ def _draw_sensors(found: Mapping[str, Any]) -> Any:
     figure, axes = panels(2, height=3.6)
     count = len(found["heights"])
     for one, side, seen in zip(axes, ("car", "counterweight"), (found["seen"][:count], found["seen"][count:]), strict=True):
-        one.plot([1e3 * value for value in seen], found["heights"], color=COLOURS[0], label="largest departure over trips")
+        one.plot([1e3 * value for value in seen], found["heights"], color=COLOURS[0])
         for place in found["places"]:
             if place["side"] == side:
                 one.axhline(place["height"], color=COLOURS[1], linewidth=1.2)
-        label(one, "[mm]", "height [m]", f"{side}'s side (lines: sensors)")
+        label(one, "largest departure over trips [mm]", "height [m]", f"{side}'s side; orange: sensors")
     return figure

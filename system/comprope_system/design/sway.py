@@ -14,12 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..tuning.elements import at_places, matrices, nodes, times
 from ..tuning.measure import PLACES, SIDES, Case
-from ..tuning.swaying import shapes, still_modes
+from ..tuning.swaying import still_modes
 
 Floats = NDArray[np.float64]
 
 STEP = 0.1  # s
+MODES = 12  # of each side, the slowest
 NEAR = 1e-6  # of W: nearer than that to a mode's frequency counts as beside it
 
 
@@ -45,13 +47,12 @@ def worst(case: Case, sway: Sway, cars: Floats) -> tuple[float, float]:
 
 def _side(case: Case, sway: Sway, length: float) -> Floats:
     W = 2.0 * np.pi / sway.period
-    squares, V, _, weight = still_modes(case.rope, length)
-    k = np.arange(1, len(squares) + 1)
-    line = np.sqrt(2.0) * -((-1.0) ** k) / (np.pi * k)  # of sin(k pi xi) in xi
-    bent = weight * np.sqrt(2.0) * ((-1.0) ** k - 1.0) / (np.pi * k)  # the integral of xi times the slope of sin(k pi xi)
+    squares, modes, stiffness = still_modes(case.rope, length)
+    squares, modes = squares[:MODES], modes[:, :MODES]
     amplitude = sway.amplitude * length / (case.height + case.pit)
-    force, w = amplitude * (V.T @ (W**2 * line - bent)), np.sqrt(squares)
+    force = amplitude * modes.T @ (W**2 * times(matrices().mass, nodes()) - times(stiffness, nodes()))
+    w = np.sqrt(squares)
     w = np.where(np.abs(w - W) < NEAR * W, (1.0 + NEAR) * W, w)
     t = np.arange(0.0, sway.duration, STEP)[:, None]
     q = force / (w**2 - W**2) * (np.sin(W * t) - W / w * np.sin(w * t))
-    return np.asarray(np.abs(q @ V.T @ shapes(PLACES)).max(axis=0))
+    return np.asarray(np.abs(q @ modes.T @ at_places(PLACES)[:, 1:-1].T).max(axis=0))

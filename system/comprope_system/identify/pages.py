@@ -30,7 +30,7 @@ def remark_section(remarks: Sequence[str]) -> Section:
 def save_comparison(path: Path, comparison: Comparison, remarks: Sequence[str]) -> None:
     """The page of `comprope compare`."""
     sections = [
-        Section("summary", "How far off", [texts.compared(comparison), HOW, texts.error_table(comparison)]),
+        Section("summary", "How far off", [HOW, texts.error_table(comparison)]),
         remark_section(remarks),
         *run_sections(comparison),
         *where_sections(comparison),
@@ -70,7 +70,7 @@ def save_diagnosis(path: Path, judged: Judged, clues: Sequence[Clue], standing: 
     found = judged.diagnosis
     lead = texts.verdict(judged)
     sections = [
-        Section("verdict", "What is missing", [*lead, *ranking_blocks(judged)]),
+        Section("verdict", "What is missing", [*lead[1:], *ranking_blocks(judged)]),
         remark_section(judged.remarks),
         Section("picture", "Before and after", before_after(judged.before, judged.best)),
         Section("unseen", "What these data cannot see", unseen_blocks(judged)),
@@ -149,6 +149,9 @@ def save_added(path: Path, added: Added) -> None:
     save_page(path, title, texts.added(added), added_sections(added))
 
 
+VALUES = "In SI units, with one standard deviation and a 95 % interval; the effect first, then the plant fitted with it."
+
+
 def added_sections(added: Added) -> list[Section]:
     """What an effect bought, its values, and pictures of before and after."""
     stages = {"as it stood": added.before, "plant refitted": added.refitted, f"with {added.effect}": added.after}
@@ -157,7 +160,7 @@ def added_sections(added: Added) -> list[Section]:
         Section(
             "bought", "What it bought", [Picture("bought", figures.stairs(list(stages), fit, held)), texts.fall_table(stages)]
         ),
-        Section("values", "Fitted values", [texts.value_table(added.effects), texts.value_table(added.plant)]),
+        Section("values", "Fitted values", [VALUES, texts.value_table(added.effects), texts.value_table(added.plant)]),
         Section("picture", "Before and after", before_after(added.before, added.after)),
         Section("orders", "What turns with the sheave, after", [order_picture(added.after)]),
     ]

@@ -2,6 +2,7 @@
 
 import base64
 import io
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,12 +16,13 @@ from matplotlib.figure import Figure
 from comprope.whole import whole_file
 
 DPI = 130
+NUMBER = re.compile(r"[-−+]?[\d.][\d.e+/-]*( ± [\d.e+-]+)?( [^ \d]+)?")  # or two, with a deviation, with a unit
 MARKS = {"yes": "yes", "no": "no", "partly": "partly", "pass": "yes", "fail": "no"}
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table of texts; columns whose cells all begin like numbers are set to the right, marks are coloured."""
+    """A table of texts; columns of numbers are set to the right, marks are coloured."""
 
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
@@ -29,7 +31,7 @@ class Table:
     def numeric(self, column: int) -> bool:
         """Whether a column holds numbers only."""
         cells = [row[column] for row in self.rows]
-        return bool(cells) and all(cell[:1] in "-−+.0123456789" and len(cell) < 14 for cell in cells if cell)
+        return bool(cells) and all(NUMBER.fullmatch(cell) for cell in cells if cell not in ("", "–"))
 
     def mark(self, cell: str) -> str:
         """The class of a cell that is a mark such as "yes" or "fail"; empty for any other."""

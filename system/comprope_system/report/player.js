@@ -130,6 +130,7 @@
       const high = name === "car" ? 34 : 46, wide = name === "car" ? 46 : 26;
       draw(group, "rect", { x: -wide / 2, y: -high, width: wide, height: high, rx: 2, fill: "#fff", stroke: "#1d2733", "stroke-width": 1.5 });
       if (name === "car") draw(group, "path", { d: "M0 -30V-4", stroke: "#aab4bf" });
+      draw(group, "text", { x: 0, y: -high - 5, class: "tick", "text-anchor": "middle" }, name);
       return group;
     }
 

@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 
 PROGRAMS = 20
 COUNTS = 0.5  # of the largest departure: smaller ones are left out of a program
-FIRST_BOUND, LAST_BOUND = 0.15, 0.005  # of the largest acceleration: how far a program may change a knot
+FIRST_BOUND, LAST_BOUND = 0.3, 0.005  # of the largest acceleration: how far a program may change a knot
 NUDGE = 0.02  # of the largest acceleration, by which the response is differenced
 EVERY = 6  # moments and places that a program looks at besides peaks in time
 LEAST_GAIN = 2e-3  # of the cost: with less the search ends

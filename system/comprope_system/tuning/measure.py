@@ -16,13 +16,15 @@ from comprope.rope.model import CompensationRope
 from ..hanging import side_string
 from ..ride import record, side_shape
 from .bounce import Hoist
+from .elements import ELEMENTS, nodes
 from .motion import Moves, moves
-from .swaying import Rope, at_rest, shapes, sway
+from .swaying import Rope, at_rest, sway
 
 Floats = NDArray[np.float64]
 
 SIDES = {"car": 1.0, "counterweight": -1.0}
-PLACES = np.linspace(0.04, 0.98, 25)  # of a side's length, from the axle to the end
+READ = slice(4, ELEMENTS, 4)  # nodes that are looked at
+PLACES = nodes()[READ]  # of a side's length, from the axle to the end
 CLEAR = 6.0  # bending lengths above the axle: below that the rope leans on the sheave
 TAIL = 1.25  # slowest periods watched after the trip
 DT = 0.03  # s, step of the search; the slowest swings take seconds
@@ -78,8 +80,7 @@ def displacements(case: Case, moved: Moves) -> dict[str, tuple[Floats, Floats]]:
     """Lengths (n,) [m] and outward departures from rest (n, places) [m] on the small rope, by side."""
     found = {}
     for side, (length, speed, acceleration, press) in case.ends(moved).items():
-        amplitudes = sway(case.rope, moved.dt, length, speed, acceleration, press)
-        outward = amplitudes[:, :1] * (1.0 - PLACES) + amplitudes[:, 1:] @ shapes(PLACES)
+        outward = sway(case.rope, moved.dt, length, speed, acceleration, press)[:, READ]
         found[side] = length, outward - at_rest(case.rope, length, PLACES)
     return found
 

@@ -13,14 +13,15 @@ from .measure import small_swing
 from .task import Task, told_of
 
 FREE = "free"
-ASKED = 0.8  # of a share is looked for on the small rope, which does not know the sheave's bounce
+AIM = 0.95  # of a share is looked for
+CORRECTIONS = 3  # times the small rope is asked again, for as much less or more as the full model was off
 LONGEST = 4.0  # of the shortest travel time
 
 
-def saved(task: Task, shares: Sequence[float]) -> list[dict[str, Any]]:
-    """The least travel time found that leaves each share of the present swing after the trip, full model."""
+def saved(task: Task, shares: Sequence[float], after: float) -> list[dict[str, Any]]:
+    """The least travel time found that leaves each share of the present swing `after` the trip [m], full model."""
     quietest = _Quietest(task)
-    return [_time_for(task, quietest, share) for share in shares]
+    return [_time_for(task, quietest, share, after) for share in shares]
 
 
 def sooner(
@@ -67,15 +68,32 @@ def _first(pair: tuple[float, Drive | None]) -> float:
     return pair[0]
 
 
-def _time_for(task: Task, quietest: _Quietest, share: float) -> dict[str, Any]:
-    """By bisection over travel times on the small rope, asked for a little less than the share; judged on the full model."""
+def _time_for(task: Task, quietest: _Quietest, share: float, after: float) -> dict[str, Any]:
+    """The fastest trip found that leaves the share on the full model; if none does, the last one looked at.
+
+    Searched on the small rope, and again for a share corrected by what the full model made of it.
+    """
+    found: list[dict[str, Any]] = []
+    asked = AIM * share
+    for _ in range(CORRECTIONS):
+        drive = _fastest(quietest, asked)
+        if drive is None:
+            break
+        found.append(told_of(task, drive, FREE, small_swing(task.case(), course_of(drive, task.way), task.watched)))
+        asked *= AIM * share * after / found[-1]["full"][1]
+    if not found:
+        return {"share": share, "time": None, "small": None, "full": None}
+    kept = [one for one in found if one["full"][1] <= share * after]
+    return {"share": share} | (min(kept, key=lambda one: one["time"]) if kept else found[-1])
+
+
+def _fastest(quietest: _Quietest, asked: float) -> Drive | None:
+    """The drive of the shortest travel time that leaves `asked` of the present swing on the small rope, by bisection."""
     low = high = 1.0
-    while high < LONGEST and quietest(high := 1.2 * high)[1] > ASKED * share:
+    while high < LONGEST and quietest(high := 1.2 * high)[1] > asked:
         low = high
     while high - low > 0.01:
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if quietest(middle)[1] <= ASKED * share else (middle, high)
+        low, high = (low, middle) if quietest(middle)[1] <= asked else (middle, high)
     drive, left = quietest(high)
-    if drive is None or left > ASKED * share:
-        return {"share": share, "time": None, "small": None, "full": None}
-    return {"share": share} | told_of(task, drive, FREE, small_swing(task.case(), course_of(drive, task.way), task.watched))
+    return drive if left <= asked else None

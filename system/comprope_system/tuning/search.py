@@ -20,6 +20,7 @@ Cost = Callable[[list[Swing]], float]
 SAMPLES, POLISHED, STEPS = 64, 2, 60
 INFEASIBLE = 1e9
 SAME = 0.06  # shares all nearer than that are the same candidate
+ALIKE = 1e-2  # of a cost: nearer than that too, however far the shares: a short trip never reaches its limit of speed
 
 
 @dataclass(frozen=True)
@@ -90,10 +91,13 @@ def _samples(keys: tuple[str, ...]) -> Floats:
 
 
 def _unlike(candidates: Iterable[Candidate], keys: tuple[str, ...], count: int) -> list[Candidate]:
-    """The cheapest candidates, each with some share that differs from those before it."""
+    """The cheapest candidates, each with some share, and a cost, that differs from those before it."""
     found: list[Candidate] = []
     for one in sorted(candidates, key=lambda each: each.cost):
-        if all(any(abs(one.shares[key] - other.shares[key]) > SAME for key in keys) for other in found):
+        if all(
+            any(abs(one.shares[key] - other.shares[key]) > SAME for key in keys) and one.cost > (1.0 + ALIKE) * other.cost
+            for other in found
+        ):
             found.append(one)
         if len(found) == count:
             break

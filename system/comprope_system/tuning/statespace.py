@@ -11,8 +11,9 @@ import control
 import numpy as np
 from numpy.typing import NDArray
 
+from .elements import at_places, matrices, nodes, times
 from .measure import SIDES, Case
-from .swaying import matrices, shapes, still_modes
+from .swaying import still_modes
 
 Floats = NDArray[np.float64]
 
@@ -39,11 +40,11 @@ def _states() -> list[str]:
 
 def _side(case: Case, side: str, car: float) -> control.StateSpace:
     """One side about rest: q'' + c q' + W^2 q = -(m b'' + c m b' + k b), b through two lags of speed and acceleration."""
-    rope, M, sign = case.rope, matrices(), SIDES[side]
+    rope, M, sign, lift = case.rope, matrices(), SIDES[side], 1.0 - nodes()
     length = float(case.length(side, np.array([car]))[0])
-    squares, V, press, weight = still_modes(rope, length)
+    squares, V, stiffness = still_modes(rope, length)
     squares, V = squares[:MODES], V[:, :MODES]
-    m, k = V.T @ M.mass, V.T @ (press * M.lift[2] + weight * M.lift[3])
+    m, k = (V.T @ times(one, lift) for one in (M.mass, stiffness))
     offset = rope.offset
     by_speed = sign * rope.bending_stiffness / (2.0 * rope.radius * rope.weight) * rope.held[1]
     by_acceleration = -sign * offset * rope.turning / rope.weight
@@ -58,7 +59,7 @@ def _side(case: Case, side: str, car: float) -> control.StateSpace:
     A[n : 2 * n, 2 * n + 1] -= rope.damping * m
     B[n : 2 * n] = -np.outer(m, B[2 * n + 1])
     share = np.array(OUTPUTS)
-    C = np.hstack([shapes(share).T @ V, np.zeros((len(share), n)), (1.0 - share)[:, None], np.zeros((len(share), 1))])
+    C = np.hstack([at_places(share)[:, 1:-1] @ V, np.zeros((len(share), n)), (1.0 - share)[:, None], np.zeros((len(share), 1))])
     return control.ss(A, B, C, np.zeros((len(share), 2)))
 
 

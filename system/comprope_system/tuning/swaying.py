@@ -1,4 +1,4 @@
-"""One side of the rope while the car travels: a string of changing length, tension and speed, in a dozen shape functions.
+"""One side of the rope while the car travels: a string of changing length, tension and speed, in finite elements.
 
 The side hangs from its end down to the axle. With s the height above the axle, L(t) the side's length, v the rope's speed
 up, xi = s / L, a string of mass rho per length that runs through space with its end obeys
@@ -14,16 +14,15 @@ depend on the speed. The rope's stiffness holds it off the axle's vertical by
 where g0 is near 1, g1 about -D / (EI sqrt(EI / N)) for a bending damping D, which makes rope that runs off the sheave
 straighten late, and g3 nought but for bending hysteresis; `calibrate.py` measures them on the full model. So what swings the
 rope is b, which follows speed and acceleration, and the tension, which changes its shape. With
-y = (1 - xi) b + sum of q_k sqrt(2) sin(k pi xi) the weak form gives, per rho L, with constant matrices over xi
+y = b at the axle and 0 at the end the weak form gives, per rho L, with the constant matrices of `elements.py`
 
-    q'' + (2 (v/L) G + c/rho) q' + (N/(rho L^2) K + (v/L)^2 (K - S) + (g + v')/L H + (v' + c/rho v)/L G) q = - the same of b
+    M y'' + (2 (v/L) G + c/rho M) y' + (N/(rho L^2) K + (v/L)^2 (K - S) + (g + v')/L H + (v' + c/rho v)/L G) y = 0
 
 Left out: the sheave's bounce, tension from swinging, bending away from the sheave, effects other than external damping.
 Unlike the full model it holds only where the rope wraps the sheave, N r^2 > EI / 2.
 """
 
 from dataclasses import dataclass
-from functools import cache
 from math import pi
 
 import numba
@@ -34,11 +33,11 @@ from scipy.linalg import eigh
 from comprope.errors import InputError
 from comprope.rope.parameters import Base
 
+from .elements import ELEMENTS, matrices, nodes, whole
+
 Floats = NDArray[np.float64]
 
-SHAPES = 12
 STARTS = 0.02  # m/s: below it friction inside the rope has not turned round yet
-_QUADRATURE = 64
 
 
 @dataclass(frozen=True)
@@ -93,58 +92,15 @@ def rope_of(model: Base) -> Rope:
     return Rope(rope.mass_per_length, weight, turning, lifting, rope.bending_stiffness, sheave.radius, damping, g)
 
 
-@dataclass(frozen=True)
-class Matrices:
-    """The constant matrices over xi: G, S, K, H (k, k) of the shape functions, and columns `lift` (4, k) of the same for b.
+def still_modes(rope: Rope, length: float) -> tuple[Floats, Floats, Floats]:
+    """At standstill: squares of the angular frequencies (k,), modes (n - 1, k) at the inner nodes, stiffness over rho L.
 
-    `mass` (k,) is the lift's share of each shape function.
+    The modes have unit mass; the slowest is the first.
     """
-
-    G: Floats
-    S: Floats
-    K: Floats
-    H: Floats
-    lift: Floats
-    mass: Floats
-
-
-@cache
-def matrices(count: int = SHAPES) -> Matrices:
-    """The matrices of `count` shape functions, by Gauss quadrature exact enough for all of them."""
-    nodes, weights = np.polynomial.legendre.leggauss(_QUADRATURE)
-    xi, w = 0.5 * (nodes + 1.0), 0.5 * weights
-    f, df = shapes(xi, count), slopes(xi, count)
-    base, dbase = 1.0 - xi, -np.ones_like(xi)
-
-    def products(of: Floats, to: Floats, factor: Floats) -> Floats:
-        return np.ascontiguousarray(of @ (w * factor * to).T)
-
-    columns = [
-        products(f, dbase, 1.0 - xi), products(df, dbase, (1.0 - xi) ** 2), products(df, dbase, np.ones_like(xi)),
-        products(df, dbase, xi),
-    ]  # fmt: skip
-    return Matrices(
-        products(f, df, 1.0 - xi), products(df, df, (1.0 - xi) ** 2), products(df, df, np.ones_like(xi)), products(df, df, xi),
-        np.array(columns), products(f, base, np.ones_like(xi)),
-    )  # fmt: skip
-
-
-def shapes(xi: Floats, count: int = SHAPES) -> Floats:
-    """The shape functions (k, n) at places xi (n,)."""
-    return np.asarray(np.sqrt(2.0) * np.sin(np.outer(np.arange(1, count + 1), pi * xi)))
-
-
-def slopes(xi: Floats, count: int = SHAPES) -> Floats:
-    """Their derivatives by xi (k, n)."""
-    k = np.arange(1, count + 1)[:, None] * pi
-    return np.asarray(np.sqrt(2.0) * k * np.cos(k * xi))
-
-
-def still_modes(rope: Rope, length: float, count: int = SHAPES) -> tuple[Floats, Floats, float, float]:
-    """Squares of the angular frequencies (k,) at standstill, modes (k, k) in the shape functions, N/(rho L^2) and g/L [1/s2]."""
-    M, press, weight = matrices(count), rope.weight / rope.mass_per_length / length**2, rope.gravity / length
-    squares, V = eigh(press * M.K + weight * M.H)
-    return squares, V, press, weight
+    M = matrices()
+    stiffness = rope.weight / rope.mass_per_length / length**2 * M.K + rope.gravity / length * M.H
+    squares, modes = eigh(whole(stiffness), whole(M.mass))
+    return squares, modes, stiffness
 
 
 def at_rest(rope: Rope, length: Floats, xi: Floats) -> Floats:
@@ -153,42 +109,42 @@ def at_rest(rope: Rope, length: Floats, xi: Floats) -> Floats:
     return np.asarray(rope.offset * (1.0 - np.log1p(slack * xi) / np.log1p(slack)))
 
 
-def sway(
-    rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, press: Floats, count: int = SHAPES
-) -> Floats:
-    """Amplitudes (m, 1 + k): b and q_1 ... q_k at times `dt` [s] apart, from rest.
+def sway(rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, press: Floats) -> Floats:
+    """The outward displacement at the nodes (m, n + 1) [m] at times `dt` [s] apart, from rest.
 
     `length` [m], `speed` and `acceleration` of the end, up positive [m/s, m/s2], `press` [N] on the groove, each (m,).
     """
-    b = rope.offset_at(press, speed)
-    M = matrices(count)
-    q = _march(dt, length, speed, acceleration, press / rope.mass_per_length, b, rope.gravity, rope.damping,
-               M.G, M.S, M.K, M.H, M.lift, M.mass)  # fmt: skip
-    return np.hstack([b[:, None], q])
+    M, b = matrices(), rope.offset_at(press, speed)
+    found = np.zeros((len(length), ELEMENTS + 1))
+    found[0] = at_rest(rope, length[:1], nodes())[0] * b[0] / rope.offset
+    found[:, 0] = b
+    _march(dt, length, speed, acceleration, press / rope.mass_per_length, rope.gravity, rope.damping,
+           M.mass, M.G, M.S, M.K, M.H, found)  # fmt: skip
+    return found
 
 
 @numba.njit(cache=True)
-def _march(dt, L, v, a, press, b, g, c, G, S, K, H, lift, mass):  # type: ignore[no-untyped-def]
-    """q (m, k) by the implicit midpoint rule on q and p = q' + mass b', so that b need not be smooth."""
-    k, h = G.shape[0], 0.5 * dt
-    carried = G @ mass - lift[0]
-    one, q, found = np.eye(k), np.zeros(k), np.zeros((len(L), k))
-    stiffness, force = press[0] / L[0] ** 2 * K + g / L[0] * H, press[0] / L[0] ** 2 * lift[2] + g / L[0] * lift[3]
-    q[:] = np.linalg.solve(stiffness, -force * b[0])
-    p, found[0], inverse, still = np.zeros(k), q, one, False
+def _march(dt, L, v, a, press, g, c, mass, G, S, K, H, found):  # type: ignore[no-untyped-def]
+    """The rows of `found` after the first by the implicit midpoint rule on y and the momenta p = mass y', so that b need not be
+    smooth; a band is solved by elimination downwards and back.
+    """
+    h, k = 0.5 * dt, mass.shape[1]
+    p, u, slope, stiff = np.zeros(k), np.zeros(k + 2), np.zeros(k + 1), np.zeros(3)
     for i in range(len(L) - 1):
-        length, speed, up = 0.5 * (L[i] + L[i + 1]), 0.5 * (v[i] + v[i + 1]), 0.5 * (a[i] + a[i + 1])
+        y, length, speed, up = found[i], 0.5 * (L[i] + L[i + 1]), 0.5 * (v[i] + v[i + 1]), 0.5 * (a[i] + a[i + 1])
         n, rate = 0.5 * (press[i] + press[i + 1]) / length**2, speed / length
-        way = up / length + c * rate
-        stiffness = n * K + rate**2 * (K - S) + (g + up) / length * H + way * G
-        if not (still and speed == 0.0 and up == 0.0):
-            inverse = np.ascontiguousarray(np.linalg.inv((1.0 + h * c) * one + 2.0 * h * rate * G + h * h * stiffness))
-            still = speed == 0.0 and up == 0.0
-        db, level = (b[i + 1] - b[i]) / dt, 0.5 * (b[i] + b[i + 1])
-        force = n * lift[2] + rate**2 * (lift[2] - lift[1]) + (g + up) / length * lift[3] + way * lift[0]
-        f = 2.0 * rate * db * carried - force * level
-        middle = inverse @ (p + h * (f - stiffness @ (q - h * db * mass)))
-        q += dt * (middle - db * mass)
-        p = 2.0 * middle - p
-        found[i + 1] = q
-    return found
+        way, gravity, level = up / length + c * rate, (g + up) / length, n + rate**2
+        u[0] = (found[i + 1, 0] - y[0]) / dt
+        for j in range(k):
+            push = p[j]
+            for m in range(3):
+                stiff[m] = level * K[m, j] - rate**2 * S[m, j] + gravity * H[m, j] + way * G[m, j]
+                push -= h * stiff[m] * y[j + m]
+                stiff[m] = (1.0 + h * c) * mass[m, j] + 2.0 * h * rate * G[m, j] + h * h * stiff[m]
+            pivot = stiff[1] - stiff[0] * slope[j]
+            slope[j + 1], u[j + 1] = stiff[2] / pivot, (push - stiff[0] * u[j]) / pivot
+        for j in range(k - 1, 0, -1):
+            u[j] -= slope[j] * u[j + 1]
+        for j in range(k):
+            found[i + 1, j + 1] = y[j + 1] + dt * u[j + 1]
+            p[j] = 2.0 * (mass[0, j] * u[j] + mass[1, j] * u[j + 1] + mass[2, j] * u[j + 2]) - p[j]

@@ -21,7 +21,7 @@ from .task import Task, case_of, heavier, periods, slowest_bounce, told_of
 
 BETTER = 0.97  # of the S-curve's swings: what a tuned trip is asked to stay under in both
 SAVED = (0.5, 0.2)  # of the swing after the fastest trip: what time these take
-AVERAGES = (0.0, 0.5)  # of the slowest bounce: moving averages that trips of a free shape are tried with
+AVERAGES = (0.0, 0.12, 0.25, 0.5)  # of the slowest bounce: moving averages that trips of a free shape are tried with
 OTHERS = 5  # other trips, likewise
 CURVES = 4  # S-curves, unlike each other, that are judged on the full model
 
@@ -49,7 +49,7 @@ def tuning(task: Task) -> dict[str, Any]:
         "origin": task.way.origin, "destination": task.way.destination,
         "present": now, "points": points,
         "period": _period(task), "bound": _bound(task, [one["factor"] for one in points]),
-        "saved": quiet.sooner(quiet.saved(task, SAVED), points, now),
+        "saved": quiet.sooner(quiet.saved(task, SAVED, now["full"][1]), points, now),
         "installed": _installed(task, chosen) if chosen else None,
         "robust": _robust(task, chosen) if chosen else None,
     }  # fmt: skip
