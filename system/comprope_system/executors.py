@@ -27,6 +27,8 @@ def workers(jobs: int | None = None, address: str | None = None, *, fresh: bool 
     elif (count := jobs or os.cpu_count() or 1) == 1 and not fresh:
         yield None
     else:
+        # Each worker has a core to itself: threads of its linear algebra would only wait for one another.
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         # A fresh interpreter for each worker: forking one that has threads (a progress bar's) is not safe.
         pool = ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn"))
         try:
