@@ -22,7 +22,7 @@ from .slots import ELEMENT, MU, V0, C, K, R
 from .work import COLUMNS, CONTACT, ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, LAST, NORMAL_LOSS, ROWS, TOUCH
 
 FADE = 1e-4  # m, penetration over which contact damping fades in
-POINTS = 4  # quadrature points of a piece
+POINTS = 8  # quadrature points of a piece; with 4, what rests on the groove depends on where the nodes sit
 
 
 @kernel

@@ -61,10 +61,14 @@ class Row:
         return float(np.abs(self.rigid / self.form - 1.0).max())
 
 
+def _tower(stiffness: float, mass: float, changes: dict[str, float] | None = None) -> Base:
+    """The tower with this bending stiffness [N m2] and sheave mass [kg]."""
+    return building(TOWER, with_sheave(TOWER, mass) | {"rope.bending_stiffness": stiffness} | (changes or {}))
+
+
 def _row(stiffness: float, mass: float) -> Row:
-    changes = with_sheave(TOWER, mass) | {"rope.bending_stiffness": stiffness}
-    model = building(TOWER, changes)
-    return Row(stiffness, mass, at_rest(building(TOWER, changes | RIGID)), closed_form(model, HEIGHTS), at_rest(model))
+    model = _tower(stiffness, mass)
+    return Row(stiffness, mass, at_rest(_tower(stiffness, mass, RIGID)), closed_form(model, HEIGHTS), at_rest(model))
 
 
 def _run() -> Finding:
@@ -103,8 +107,10 @@ def _run() -> Finding:
 
 def _draw(rows: list[Row]) -> Any:
     figure, (axes,) = panels()
+    heights = np.linspace(HEIGHTS[0], HEIGHTS[-1], 100)
     for k, row in enumerate(row for row in rows if row.mass == MASSES[1]):
-        axes.plot(1e3 * row.form, HEIGHTS, "-", color=COLOURS[k], label=f"EI {row.stiffness:g} N m²")
+        form = closed_form(_tower(row.stiffness, row.mass), heights)
+        axes.plot(1e3 * form, heights, "-", color=COLOURS[k], label=f"EI {row.stiffness:g} N m²")
         axes.plot(1e3 * row.rigid, HEIGHTS, "o", color=COLOURS[k], markersize=4)
     label(axes, "outward displacement [mm]", "height [m]", f"{MASSES[1]:g} kg; dots: model, lines: closed form")
     legend(axes)

@@ -62,6 +62,7 @@ def _draw(time: Floats, middle: Floats, own: Floats) -> Any:
     right.plot(time, 1e3 * (own - middle), color=COLOURS[0])
     label(left, "time [s]", "middle of the rope [mm]")
     label(right, "time [s]", "difference [mm]")
+    left.set_ylim(top=145.0)  # room for the legend
     legend(left)
     return figure
 
