@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .add import Ground, Say
-from .diagnose import score
 from .fit import Fitted, refine
 from .hypotheses import NUISANCES
 from .point import Point
 from .present import grouped, joined
+from .rivals import score
 from .screen import PRICE
 
 Floats = NDArray[np.float64]

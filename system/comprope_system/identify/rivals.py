@@ -1,0 +1,132 @@
+"""Every effect as a rival for what the data show: fitted on the full model where that is worth its time, else by its linear look.
+
+Scores compare misfits as ratios, as if LOOKS independent looks had been taken: the discrepancy of a model is one and the
+same in thousands of samples, which a plain likelihood would count as evidence each.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import log
+from typing import NamedTuple
+
+import numpy as np
+
+from comprope.errors import SimulationError
+
+from .fit import Fitted, refine
+from .hypotheses import NUISANCES, Hypothesis, together
+from .point import Point
+from .present import shape_of
+from .problem import Problem
+from .screen import LOOKS, Screened, price, screen
+from .starts import best_start
+
+Say = Callable[[str], None]
+ADEQUATE = 0.85  # misfit per datum below which there is nothing to explain
+REFINED = 4  # hypotheses that are refined on the full model, if no other one leads
+RIVAL = 2.0  # times the best fit's misfit above which a fit is not worth its time
+PROMISING = 0.1  # of what the best linear look explains: the least that is worth a fit
+SECOND = 0.85  # of the misfit that the best effect may leave if a second one is to be looked for
+PAIRS = 2  # second effects that are refined with the first
+LEFT = 1.05  # misfit per datum above which a fit is worth another with more set free
+WORTH = 0.97  # of its misfit that it must fall to
+
+
+class Trial(NamedTuple):
+    """An effect's linear look, its fit, and whether that is one on the full model."""
+
+    seen: Screened
+    fitted: Fitted
+    refined: bool
+
+    @property
+    def hypothesis(self) -> Hypothesis:
+        """What is fitted."""
+        assert self.fitted.hypothesis is not None
+        return self.fitted.hypothesis
+
+    def score(self, count: int) -> float:
+        """Score of the fit to `count` data."""
+        return score(self.fitted.misfit, count, price(self.hypothesis, self.seen.alternatives))
+
+
+def score(misfit: float, count: int, price: float = 0.0) -> float:
+    """Score of a hypothesis: log likelihood of LOOKS independent looks whose scale is free, less its price."""
+    return -0.5 * LOOKS * log(max(misfit / count, ADEQUATE)) - price
+
+
+def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitted, say: Say) -> list[Trial]:
+    """Every effect fitted: the promising ones on the full model, the others as the linear look has them.
+
+    A linear look alone does not win: whichever leads is fitted as well, until what leads is a fit.
+    """
+    worst = max(one.misfit for one in screened)
+    least = max(PROMISING * (worst - screened[0].misfit), 0.01 * len(problem.data))
+    found = [_by_look(one, none, worst) for one in screened]
+    for k, one in enumerate(screened[:REFINED]):
+        if worst - one.misfit > least:
+            found[k] = _on_full_model(problem, origin, one, none, found, say)
+    while not found[leader := _leader(found, len(problem.data))].refined and found[leader].fitted.misfit < none.misfit - least:
+        found[leader] = _on_full_model(problem, origin, screened[leader], none, found, say)
+    return found
+
+
+def _leader(found: Sequence[Trial], count: int) -> int:
+    return max(range(len(found)), key=lambda k: found[k].score(count))
+
+
+def _by_look(one: Screened, none: Fitted, worst: float) -> Trial:
+    """The fit that a linear look promises."""
+    return Trial(
+        one, replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=none.misfit * one.misfit / worst), False
+    )
+
+
+def _on_full_model(
+    problem: Problem, origin: Point, one: Screened, none: Fitted, found: Sequence[Trial], say: Say
+) -> Trial:
+    """The effect fitted; one that cannot be simulated explains nothing. A fit ends early once it cannot come near the best."""
+    say(f"{one.hypothesis.effect}, on the full model")
+    rival = RIVAL * min((trial.fitted.misfit for trial in found if trial.refined), default=float("inf"))
+    try:
+        start = best_start(problem, one.hypothesis, one.start, origin, none, expected=one.misfit)
+        fitted = shaped(problem, origin, refine(problem, one.hypothesis, start, origin, rival), rival)
+    except SimulationError:
+        idle = np.concatenate([none.coefficients[: len(NUISANCES)], np.zeros(len(one.hypothesis.directions))])
+        fitted = replace(none, hypothesis=one.hypothesis, coefficients=idle)
+    return Trial(one, fitted, True)
+
+
+def second_look(problem: Problem, origin: Point, found: Sequence[Trial], none: Fitted, say: Say) -> Trial | None:
+    """The best effect with a second one, both fitted together; None where the best explains too little to begin with."""
+    first = min((one.fitted for one in found if one.refined), key=lambda one: one.misfit, default=None)
+    if first is None or first.hypothesis is None or first.misfit > SECOND * none.misfit:
+        return None
+    say(f"{first.hypothesis.effect} and a second effect, linearised")
+    screened = screen(problem, first.point, first.predictions, first.by, first)
+    pairs = [pair for one in screened[:PAIRS] if (pair := _pair(problem, origin, first, one, say))]
+    return min(pairs, key=lambda one: one.fitted.misfit, default=None)
+
+
+def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say: Say) -> Trial | None:
+    """Both effects fitted together on the full model; None where that cannot be simulated."""
+    assert first.hypothesis is not None
+    both = together(first.hypothesis, second.hypothesis)
+    say(f"{both.effect}, on the full model")
+    start = np.concatenate([first.coefficients, np.zeros(len(second.hypothesis.directions))]) + second.start
+    try:
+        return Trial(second, shaped(problem, origin, refine(problem, both, start, origin)), True)
+    except SimulationError:
+        return None
+
+
+def shaped(problem: Problem, origin: Point, fitted: Fitted, rival: float = float("inf")) -> Fitted:
+    """The fit with what shapes its effects free as well (a frequency, a yield curvature), where more than noise is left."""
+    assert fitted.hypothesis is not None
+    longest = max(float(run.time[-1] - run.time[0]) for run in problem.runs)
+    shapes = [shape for part in fitted.hypothesis.parts or (fitted.hypothesis,) if (shape := shape_of(part, longest))]
+    if not shapes or not LEFT * len(problem.data) < fitted.misfit < rival:
+        return fitted
+    whole = replace(together(fitted.hypothesis, *shapes), effect=fitted.hypothesis.effect)
+    freed = refine(problem, whole, np.concatenate([fitted.coefficients, np.zeros(len(shapes))]), origin, rival)
+    return freed if freed.misfit < WORTH * fitted.misfit else fitted
