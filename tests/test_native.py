@@ -24,6 +24,7 @@ from comprope.errors import CompropeError, InputError
 from comprope.fmi.description import completed
 from comprope.fmi.face import slave_class
 from comprope.native import link
+from comprope.native.fmi2 import universal
 from comprope.native.ir import require_no_python
 from comprope.native.machine import TARGETS
 from comprope.native.reference import IN, OUT
@@ -93,7 +94,7 @@ def test_needs_nothing_but_the_c_library(fmu: Path, tmp_path: Path) -> None:
     text = {"snprintf", "vsnprintf", "__snprintf_chk", "__vsnprintf_chk", "__stack_chk_fail"}
     numbers = {"sin", "cos", "sincos", "exp", "pow", "rint", "ceil", "fmax", "fmin", "sqrt"}
     assert needed <= memory | text | numbers
-    assert all(name.startswith(("fmi2", "_")) for name, kind in symbols.items() if kind == "T")
+    assert all(name.startswith(("fmi2", "fmi3", "_")) for name, kind in symbols.items() if kind == "T")
 
 
 def unpacked(fmu: Path, folder: Path) -> Path:
@@ -255,17 +256,18 @@ table = as_table(load(Path(model))) | {"own_effects": effects}
 # Not computed again, since that would compile the kernels once more.
 archive = zipfile.ZipFile(fmu)
 build.reference = lambda _: {name: archive.read(name) for name in archive.namelist() if name.startswith("resources/")}
-build.build_native(interface(validated(table, model)), Path(out), Origin(version, licence), [link.here()])
+rope = interface(validated(table, model))
+build.build_native(rope, Path(out), Origin(version, licence), build.STANDARDS, [link.here()])
 """
 
 
 def built_apart(out: Path, fmu: Path, sources: Path, *effects: Path) -> Path:
-    """The same FMU built by the package in `sources` in another process, with effects from files."""
+    """The same FMUs built by the package in `sources` in another process, with effects from files; that for FMI 2.0."""
     given = [str(presets.model_path("tower50")), str(out), str(fmu), ORIGIN.version, ORIGIN.licence, *map(str, effects)]
     places = os.pathsep.join([str(sources), os.environ.get("PYTHONPATH", "")])
     environment = os.environ | {"PYTHONPATH": places, "COMPROPE_ALLOW_CODE": "1"}
     subprocess.run([sys.executable, "-c", BUILD, *given], env=environment, check=True)
-    assert [path.name for path in out.iterdir()] == [fmu.name]
+    assert sorted(path.name for path in out.iterdir()) == [native_fmu("native-fmi3").name, fmu.name]
     return out / fmu.name
 
 
@@ -276,6 +278,8 @@ def test_same_source_same_bytes(fmu: Path, tmp_path: Path) -> None:
     with (copy / "rope" / "words.py").open("a") as file:
         file.write("# a remark\n")
     assert built_apart(out, fmu, copy.parent).read_bytes() == fmu.read_bytes()
+    other = native_fmu("native-fmi3")
+    assert (out / other.name).read_bytes() == other.read_bytes()
 
 
 PULL = """\
@@ -356,7 +360,7 @@ def test_without_zig_only_this_system_is_compiled_for(monkeypatch: pytest.Monkey
 
 def test_one_file_for_several_processors() -> None:
     parts: list[Any] = [b"\xcf\xfa\xed\xfe" + number.to_bytes(4, "little") * 2 + bytes(5000) for number in (7, 12)]
-    whole = link.universal(parts)
+    whole = universal(parts)
     for place, part in enumerate(parts):
         at = int.from_bytes(whole[8 + 20 * place + 8 :][:4], "big")
         assert at % 16384 == 0 and whole[at : at + len(part)] == part

@@ -9,8 +9,8 @@ from .engine import ModelInterface, Variable
 _PAGE = Path(__file__).with_name("page.html")
 
 
-def page(interface: ModelInterface, version: str, python: str = "", needs: str = "", systems: str = "") -> str:
-    """The HTML page of a model's FMU.
+def page(interface: ModelInterface, version: str, python: str = "", needs: str = "", systems: str = "", fmi: str = "2.0") -> str:
+    """The HTML page of a model's FMU for a version of FMI.
 
     `python` is the oldest that runs it and `needs` the packages it must have; without them, `systems` are
     those that it has binaries for.
@@ -19,7 +19,7 @@ def page(interface: ModelInterface, version: str, python: str = "", needs: str =
     environment.filters["range"] = _range
     tables = [(role, found) for role in ("input", "output", "parameter") if (found := interface.of_role(role))]
     return environment.from_string(_PAGE.read_text("utf-8")).render(
-        model=interface, version=version, python=python, needs=needs, systems=systems, tables=tables
+        model=interface, version=version, python=python, needs=needs, systems=systems, fmi=fmi, tables=tables
     )
 
 
