@@ -21,6 +21,8 @@ from pathlib import Path
 from fmpy import extract, read_model_description
 from fmpy.validation import validate_fmu
 
+sys.path.insert(0, str(Path(__file__).parent.parent))
+
 Ends = dict[str, float]  # Real outputs at the end, by "FMU.output"
 SWAYING = {"effects.building_sway.amplitude": 0.1, "effects.building_sway.frequency": 0.5, "sheave.mass": 60.0}
 
@@ -34,6 +36,7 @@ def set_parameters(path: str) -> dict[str, tuple[int, float]]:
 def in_fmpy(paths: list[str], steps: int, dt: float) -> tuple[float, Ends]:
     """Step the FMUs through fmpy, one after the other in each step."""
     from fmpy.fmi2 import FMU2Slave
+    from tests.fmi3_pair import Slave
 
     slaves = {}
     for path in paths:
@@ -41,7 +44,8 @@ def in_fmpy(paths: list[str], steps: int, dt: float) -> tuple[float, Ends]:
             raise ValueError("; ".join(problems))
         description, folder = read_model_description(path), extract(path)
         name = description.coSimulation.modelIdentifier
-        slave = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=name, instanceName=name)
+        kind = Slave if description.fmiVersion == "3.0" else FMU2Slave
+        slave = kind(guid=description.guid, unzipDirectory=folder, modelIdentifier=name, instanceName=name)
         slave.instantiate()
         slave.setupExperiment(startTime=0.0)
         for place, value in set_parameters(path).values():
@@ -139,7 +143,7 @@ def _ends(paths: list[str], read: Callable[[str, int, str], float]) -> Ends:
         f"{Path(path).stem}.{one.name}": read(path, one.valueReference, one.name)
         for path in paths
         for one in read_model_description(path).modelVariables
-        if one.causality == "output" and one.type == "Real"
+        if one.causality == "output" and one.type in ("Real", "Float64")
     }
 
 

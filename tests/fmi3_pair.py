@@ -12,6 +12,16 @@ class Slave(FMU3Slave):  # type: ignore[misc]
 
     getReal, setReal = FMU3Slave.getFloat64, FMU3Slave.setFloat64  # noqa: N815
     getInteger = FMU3Slave.getInt32  # noqa: N815
+    _window: tuple[float, float | None] = (0.0, None)
+
+    def setupExperiment(self, startTime: float, stopTime: float | None = None) -> None:  # noqa: N802
+        """Remember the times, which FMI 3.0 has in the call that begins initialization."""
+        self._window = (startTime, stopTime)
+
+    def enterInitializationMode(self) -> None:  # noqa: N802
+        """Begin initialization with the times remembered."""
+        start, stop = self._window
+        super().enterInitializationMode(startTime=start, stopTime=stop)
 
 
 class Pair3(Pair):
@@ -32,6 +42,7 @@ class Pair3(Pair):
 
     def plan(self, start: float, stop: float | None) -> None:
         self.window = (start, stop)
+        self.instance.setupExperiment(start, stop)
 
     def enter(self) -> None:
         start, stop = self.window
@@ -41,7 +52,7 @@ class Pair3(Pair):
             self.oracle.run.plan(start, stop)
             self.oracle.phase = 1
 
-        self.both(lambda: self.instance.enterInitializationMode(startTime=start, stopTime=stop), expected)
+        self.both(self.instance.enterInitializationMode, expected)
 
     def read(self) -> None:
         super().read()
