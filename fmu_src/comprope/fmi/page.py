@@ -18,8 +18,9 @@ def page(interface: ModelInterface, version: str, python: str = "", needs: str =
     environment = Environment(autoescape=True, trim_blocks=True, keep_trailing_newline=True)
     environment.filters["range"] = _range
     tables = [(role, found) for role in ("input", "output", "parameter") if (found := interface.of_role(role))]
+    pictures = [path.read_text("utf-8") for path in interface.pictures]
     return environment.from_string(_PAGE.read_text("utf-8")).render(
-        model=interface, version=version, python=python, needs=needs, systems=systems, fmi=fmi, tables=tables
+        model=interface, pictures=pictures, version=version, python=python, needs=needs, systems=systems, fmi=fmi, tables=tables
     )
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from ..fmi.engine import ModelInterface, Value, Variable, parameters_of
@@ -24,6 +25,7 @@ _DESCRIPTION = (
     "Elevator compensation rope on a free sheave: lateral displacement at sensors and sheave force, from the car's and "
     "the counterweight's positions"
 )
+_PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in ("shaft", "sheave", "element", "ends"))
 _ENDS = ("car", "counterweight")
 _STEP = 0.01  # s, communication step that an importer uses when told nothing else
 _OUTPUTS = (  # name, unit, nominal, help
@@ -55,7 +57,7 @@ def interface(model: Base) -> ModelInterface:
     """Variables and maker of the rope; parameters start at the values of `model`, sensors are as many as its."""
     variables = (*_parameters(model), *_inputs(model), *_outputs(len(model.sensors)))
     make = partial(create, own_effects=tuple(getattr(model, "own_effects", ())))
-    return ModelInterface(NAME, _DESCRIPTION, variables, make, stop_time=30.0, step_size=_STEP)
+    return ModelInterface(NAME, _DESCRIPTION, variables, make, stop_time=30.0, step_size=_STEP, pictures=_PICTURES)
 
 
 def create(
