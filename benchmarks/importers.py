@@ -115,7 +115,7 @@ def compare(paths: list[str], steps: int, dt: float) -> int:
     print(f"{'FMUs':40} {'importer':12} {'seconds':>9} {'us/step':>9}  largest difference from fmpy")
     for chosen in [*([path] for path in paths), *([paths] if len(paths) > 1 else [])]:
         reference: Ends = {}
-        for importer in filter(importlib.util.find_spec, IMPORTERS):
+        for importer in filter(importlib.util.find_spec, _importers_of(chosen)):
             label = f"{'+'.join(Path(path).stem for path in chosen):40} {importer:12}"
             found = _apart(importer, chosen, steps, dt)
             if isinstance(found, str):
@@ -126,6 +126,12 @@ def compare(paths: list[str], steps: int, dt: float) -> int:
             reference = reference or ends
             print(f"{label} {seconds:9.3f} {1e6 * seconds / steps:9.1f}  {_difference(chosen, reference, ends)}")
     return failures
+
+
+def _importers_of(paths: list[str]) -> list[str]:
+    """Those that read the FMUs' versions of FMI: libcosim has 2.0 at most."""
+    newer = any(read_model_description(path).fmiVersion == "3.0" for path in paths)
+    return [name for name in IMPORTERS if not (newer and name == "libcosimpy")]
 
 
 def _apart(importer: str, paths: list[str], steps: int, dt: float) -> tuple[float, Ends] | str:
