@@ -18,6 +18,7 @@ from comprope.drive.engine import ENTRY as DRIVE_ENTRY  # noqa: E402
 from comprope.drive.engine import interface as drive_interface  # noqa: E402
 from comprope.errors import CompropeError, InputError  # noqa: E402
 from comprope.fmi.build import Origin, build  # noqa: E402
+from comprope.fmi.reference import reference  # noqa: E402
 from comprope.fmi.ssp import Part, wires_by_name, write_ssp  # noqa: E402
 from comprope.rope.effects import RopeModel  # noqa: E402
 from comprope.rope.engine import ENTRY as ROPE_ENTRY  # noqa: E402
@@ -56,7 +57,8 @@ def _built(options: argparse.Namespace) -> list[Path]:
 def build_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
     """The rope's FMU, its parameters starting at the values of a model file."""
     model = model_with(model_file, sensors)
-    return build(rope_interface(model), ["rope"], ROPE_ENTRY, out, origin, bundle(model))
+    interface = rope_interface(model)
+    return build(interface, ["rope"], ROPE_ENTRY, out, origin, bundle(model), extra=reference(interface))
 
 
 def build_native_ropes(model_file: Path, sensors: int | None, out: Path, origin: Origin, versions: list[str]) -> list[Path]:
@@ -71,7 +73,8 @@ def build_native_ropes(model_file: Path, sensors: int | None, out: Path, origin:
 
 def build_drive(out: Path, origin: Origin) -> Path:
     """The drive's FMU."""
-    return build(drive_interface(), ["drive"], DRIVE_ENTRY, out, origin)
+    interface = drive_interface()
+    return build(interface, ["drive"], DRIVE_ENTRY, out, origin, extra=reference(interface))
 
 
 def build_ssp(model: RopeModel, rope: Path, drive: Path, out: Path) -> Path:

@@ -23,11 +23,11 @@ import comprope
 from comprope.errors import CompropeError, InputError
 from comprope.fmi.description import completed
 from comprope.fmi.face import slave_class
+from comprope.fmi.reference import IN, OUT
 from comprope.native import link
 from comprope.native.fmi2 import universal
 from comprope.native.ir import require_no_python
 from comprope.native.machine import TARGETS
-from comprope.native.reference import IN, OUT
 from comprope.native.tables import quoted
 from comprope.rope.words import WORDS, require_fine
 from comprope_system import presets

@@ -13,6 +13,7 @@ from ..fmi.build import DESCRIPTION, Origin, digest, zipped
 from ..fmi.check import interface_problems
 from ..fmi.engine import ModelInterface
 from ..fmi.page import page
+from ..fmi.reference import reference
 from ..rope.effects.own import FILES
 from ..whole import whole_file
 from . import link
@@ -20,7 +21,6 @@ from .fmi2 import FMI2
 from .fmi3 import FMI3
 from .ir import kernels, sizes
 from .machine import TARGETS, machine_code
-from .reference import reference
 from .standard import Standard
 from .tables import effects_of, kernels_header, model_source
 
