@@ -301,9 +301,34 @@ acts(SheavePull, forces=pull)
 """
 
 
-def test_an_effect_from_a_file_is_compiled_in(fmu: Path, tmp_path: Path) -> None:
+BESIDE = """\
+import sys
+from pathlib import Path
+from comprope.rope.engine import interface
+from comprope.rope.modelfile import as_table, load, validated
+from tests.fmi_pair import Pair
+
+model, fmu, *effects = sys.argv[1:]
+rope = interface(validated(as_table(load(Path(model))) | {"own_effects": effects}, model))
+pair = Pair(Path(fmu), rope)
+brush = {"effects.pit_brush.damping": 20.0, "effects.pit_brush.top": 30.0, "effects.building_sway.amplitude": 0.05}
+pair.start(brush | {"effects.sheave_pull.force": 150.0, "rope.element_length": 0.2})
+for k in range(1, 31):
+    pair.put(["car_position", "counterweight_position"], [1e-4 * k * k, 50.0 - 1e-4 * k * k])
+    pair.step(0.01)
+    pair.read()
+assert pair.refusals == 0
+"""
+
+
+def test_effects_from_files_are_compiled_in(fmu: Path, tmp_path: Path) -> None:
+    """They do what they do just in time, to the last bit, and nothing while they are off."""
+    root, model = Path(__file__).parent.parent, str(presets.model_path("tower50"))
     (tmp_path / "pull.py").write_text(PULL)
-    made = built_apart(tmp_path / "out", fmu, Path(comprope.__file__).parents[1], tmp_path / "pull.py")
+    effects = (tmp_path / "pull.py", root / "docs" / "examples" / "pit_brush.py")
+    made = built_apart(tmp_path / "out", fmu, Path(comprope.__file__).parents[1], *effects)
+    command = [sys.executable, "-c", BESIDE, model, str(made), *map(str, effects)]
+    subprocess.run(command, env=os.environ | {"COMPROPE_ALLOW_CODE": "1"}, cwd=root, check=True)
     assert validate_fmu(str(made)) == []
     short = {"stop_time": 0.1, "step_size": 0.01, "output_interval": 0.01}
     without, off = simulate_fmu(str(fmu), **short), simulate_fmu(str(made), **short)

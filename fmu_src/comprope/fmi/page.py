@@ -16,12 +16,17 @@ def page(interface: ModelInterface, version: str, python: str = "", needs: str =
     those that it has binaries for.
     """
     environment = Environment(autoescape=True, trim_blocks=True, keep_trailing_newline=True)
-    environment.filters["range"] = _range
+    environment.filters |= {"range": _range, "caption": _caption}
     tables = [(role, found) for role in ("input", "output", "parameter") if (found := interface.of_role(role))]
     pictures = [path.read_text("utf-8") for path in interface.pictures]
     return environment.from_string(_PAGE.read_text("utf-8")).render(
         model=interface, pictures=pictures, version=version, python=python, needs=needs, systems=systems, fmi=fmi, tables=tables
     )
+
+
+def _caption(picture: str) -> str:
+    """What an SVG picture says that it shows."""
+    return picture.partition("<title>")[2].partition("</title>")[0]
 
 
 def _range(variable: Variable) -> str:
