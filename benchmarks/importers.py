@@ -2,11 +2,11 @@
 
     python benchmarks/importers.py dist/*.fmu [--steps 1000] [--step-size 0.001]
 
-Each importer (fmpy, libcosimpy, ecospy; those installed; ecospy needs libtbb12) validates and runs each FMU in a
-process of its own, and then all FMUs together, unconnected; libcosim does not know FMI 3.0. So that a rope has something to
-do, the building sways and its sheave is light. The table gives the processor time for all steps and the largest difference
-of a Real output from fmpy's, relative to its nominal value. Whatever an FMU or importer writes to standard error counts as a failure, since
-ecospy passes over errors that FMUs report.
+Each importer (fmpy, libcosimpy, ecospy; those installed; ecospy needs libtbb12) validates and runs each FMU in a process
+of its own, and then all FMUs together, unconnected; libcosim does not know FMI 3.0. So that a rope has something to do,
+the building sways and its sheave is light. The table gives the processor time for all steps and the largest difference of
+a Real output from fmpy's, relative to its nominal value. Whatever an FMU or importer writes to standard error counts as a
+failure, since ecospy passes over errors that FMUs report.
 """
 
 import argparse
