@@ -45,7 +45,7 @@ def arguments(fmu: str, guid: str, binary: str, number: int) -> list[str]:
 def run(command: list[str], line: int = -1) -> str:
     """A line of a program's output, the last one by default, or how it ended."""
     result = subprocess.run(
-        command, capture_output=True, text=True, timeout=600, check=False, env=os.environ | {"WINEDEBUG": "-all"}
+        command, capture_output=True, text=True, timeout=3600, check=False, env=os.environ | {"WINEDEBUG": "-all"}
     )
     lines = (result.stdout.strip() or result.stderr.strip() or "no output").splitlines()
     return lines[line] if result.returncode == 0 else f"exit status {result.returncode}: {lines[0]}"
