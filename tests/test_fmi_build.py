@@ -10,7 +10,10 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
-from comprope.fmi.reference import DURATION, EVERY, IN, OUT
+from comprope.fmi.reference import DURATION, EVERY, IN, OUT, reference
+from comprope.rope.engine import interface
+from comprope.rope.modelfile import load, with_changes
+from comprope_system import presets
 
 ROOT = Path(__file__).parent.parent
 
@@ -63,3 +66,9 @@ def test_bad_input_is_one_line_and_leaves_no_file(tmp_path: Path, arguments: tup
     assert result.returncode == 2
     assert sentence in result.stderr and len(result.stderr.splitlines()) == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_in_a_low_shaft_the_reference_rises_less() -> None:
+    model = with_changes(load(presets.model_path("tower50")), {"shaft.height": 1.0, "rope.element_length": 0.1})
+    last = reference(interface(model))[IN].decode().splitlines()[-1]
+    assert [float(value) for value in last.split(",")] == [4.0, 0.25, 0.75]

@@ -64,8 +64,8 @@ def interface(model: Base) -> ModelInterface:
 
 
 def _ends_rising(height: float, time: float) -> dict[str, float]:
-    """Positions [m] while the car rises by _RISE from the bottom landing: half a cosine, from rest to rest."""
-    risen = 0.5 * _RISE * (1.0 - cos(pi * min(time / _RISE_TIME, 1.0)))
+    """Positions [m] while the car rises by _RISE, less in a low shaft: half a cosine, from rest to rest."""
+    risen = 0.5 * min(_RISE, 0.25 * height) * (1.0 - cos(pi * min(time / _RISE_TIME, 1.0)))
     return {"car_position": risen, "counterweight_position": height - risen}
 
 
