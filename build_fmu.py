@@ -1,7 +1,8 @@
 """Build the FMUs: `python build_fmu.py` writes dist/CompensationRope.fmu and dist/ElevatorDrive.fmu.
 
-With `--native` it writes dist/CompensationRope-native.fmu as well, which needs no Python; with `--ssp`
-dist/Elevator.ssp, drive and rope connected, with the native rope if there is one.
+With `--native` it writes dist/CompensationRope-native.fmu as well, which needs no Python, and with `--fmi3` the same for
+FMI 3.0, dist/CompensationRope-native-fmi3.fmu; with `--ssp` dist/Elevator.ssp, drive and rope connected, with the native
+rope of FMI 2.0 if there is one.
 """
 
 import argparse
@@ -17,6 +18,7 @@ from comprope.drive.engine import ENTRY as DRIVE_ENTRY  # noqa: E402
 from comprope.drive.engine import interface as drive_interface  # noqa: E402
 from comprope.errors import CompropeError, InputError  # noqa: E402
 from comprope.fmi.build import Origin, build  # noqa: E402
+from comprope.fmi.reference import reference  # noqa: E402
 from comprope.fmi.ssp import Part, wires_by_name, write_ssp  # noqa: E402
 from comprope.rope.effects import RopeModel  # noqa: E402
 from comprope.rope.engine import ENTRY as ROPE_ENTRY  # noqa: E402
@@ -43,8 +45,9 @@ def _built(options: argparse.Namespace) -> list[Path]:
     """Build all that is asked for."""
     origin = Origin(_version(), (ROOT / "LICENSE").read_text("utf-8"))
     built = [build_rope(options.model, options.sensors, options.out, origin), build_drive(options.out, origin)]
-    if options.native:
-        built.append(build_native_rope(options.model, options.sensors, options.out, origin))
+    versions = [version for version, wanted in (("2.0", options.native), ("3.0", options.fmi3)) if wanted]
+    if versions:
+        built += build_native_ropes(options.model, options.sensors, options.out, origin, versions)
     if options.ssp:
         rope = built[2 * options.native]
         built.append(build_ssp(model_with(options.model, options.sensors), rope, built[1], options.out))
@@ -54,21 +57,24 @@ def _built(options: argparse.Namespace) -> list[Path]:
 def build_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
     """The rope's FMU, its parameters starting at the values of a model file."""
     model = model_with(model_file, sensors)
-    return build(rope_interface(model), ["rope"], ROPE_ENTRY, out, origin, bundle(model))
+    interface = rope_interface(model)
+    return build(interface, ["rope"], ROPE_ENTRY, out, origin, bundle(model), extra=reference(interface))
 
 
-def build_native_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
-    """The rope's FMU that needs no Python, for every system that can be compiled for here."""
-    from comprope.native.build import build_native  # loads the compiler, which the others do without
+def build_native_ropes(model_file: Path, sensors: int | None, out: Path, origin: Origin, versions: list[str]) -> list[Path]:
+    """The rope's FMUs that need no Python, for some versions of FMI and every system that can be compiled for here."""
+    from comprope.native.build import STANDARDS, build_native  # loads the compiler, which the others do without
     from comprope.native.link import toolchain
 
     sys.stderr.write(f"compiling with {toolchain()}\n")
-    return build_native(rope_interface(model_with(model_file, sensors)), out, origin)
+    chosen = [one for one in STANDARDS if one.version in versions]
+    return build_native(rope_interface(model_with(model_file, sensors)), out, origin, chosen)
 
 
 def build_drive(out: Path, origin: Origin) -> Path:
     """The drive's FMU."""
-    return build(drive_interface(), ["drive"], DRIVE_ENTRY, out, origin)
+    interface = drive_interface()
+    return build(interface, ["drive"], DRIVE_ENTRY, out, origin, extra=reference(interface))
 
 
 def build_ssp(model: RopeModel, rope: Path, drive: Path, out: Path) -> Path:
@@ -102,6 +108,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--out", type=Path, default=ROOT / "dist", metavar="DIR", help="folder to write to (default: dist)")
     parser.add_argument("--ssp", action="store_true", help="drive and rope also as one system, connected")
     parser.add_argument("--native", action="store_true", help="the rope also as an FMU that needs no Python")
+    parser.add_argument("--fmi3", action="store_true", help="the rope also as an FMU for FMI 3.0 that needs no Python")
     parser.add_argument("--allow-code", action="store_true", help="run the files of own effects that the model names")
     return parser.parse_args(arguments)
 

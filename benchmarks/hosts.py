@@ -1,7 +1,8 @@
 """The native FMU in a host without Python: under sanitizers, under valgrind, and its Windows binary under wine.
 
-    python benchmarks/hosts.py dist/CompensationRope-native.fmu
+    python benchmarks/hosts.py dist/CompensationRope-native.fmu [dist/CompensationRope-native-fmi3.fmu]
 
+The host is for FMI 2.0. The face under sanitizers also takes random calls from Python, for each FMU given.
 Needs gcc (its address and undefined-behaviour sanitizers); valgrind if it is there, and for Windows ziglang and wine64.
 """
 
@@ -29,6 +30,8 @@ HOST = Path(__file__).parent.parent / "tests" / "native_host.c"
 SCENARIOS = {"cycle": 50, "threads": 5, "states": 1, "wrong": 1}
 RIDE = 400  # steps of 10 ms
 WINE = ("wine64", "/usr/lib/wine/wine64")
+SANITIZED = "sanitized"  # GUID and instantiation token
+CALLS = 20_000
 _SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1", "-std=c11")
 
 
@@ -42,7 +45,7 @@ def arguments(fmu: str, guid: str, binary: str, number: int) -> list[str]:
 def run(command: list[str], line: int = -1) -> str:
     """A line of a program's output, the last one by default, or how it ended."""
     result = subprocess.run(
-        command, capture_output=True, text=True, timeout=600, check=False, env=os.environ | {"WINEDEBUG": "-all"}
+        command, capture_output=True, text=True, timeout=3600, check=False, env=os.environ | {"WINEDEBUG": "-all"}
     )
     lines = (result.stdout.strip() or result.stderr.strip() or "no output").splitlines()
     return lines[line] if result.returncode == 0 else f"exit status {result.returncode}: {lines[0]}"
@@ -50,7 +53,8 @@ def run(command: list[str], line: int = -1) -> str:
 
 def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
     """Every scenario with the face in C compiled under sanitizers; the kernels are as in the FMU."""
-    generated = {"kernels.h": kernels_header(tower(), sizes({})), "model.c": model_source(tower(), "sanitized")}
+    identity = model_source(tower(), SANITIZED, SANITIZED)
+    generated = {"kernels.h": kernels_header(tower(), sizes({})), "model.c": identity}
     for name, content in (link.face_sources() | {name: text.encode() for name, text in generated.items()}).items():
         (stage / name).write_bytes(content)
     (stage / "kernels.o").write_bytes(machine_code(kernels({}), TARGETS["linux"]))
@@ -61,7 +65,34 @@ def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
     subprocess.run([*options, *shared, *sources, str(stage / "kernels.o"), "-o", binary, "-lm"], check=True)
     subprocess.run([*options, str(HOST), "-o", host, "-ldl", "-lpthread", "-lm"], check=True)
     for scenario, number in SCENARIOS.items():
-        yield scenario, run([host, scenario, *arguments(fmu, "sanitized", binary, number)])
+        yield scenario, run([host, scenario, *arguments(fmu, SANITIZED, binary, number)])
+
+
+def shaken(fmus: list[str], stage: Path) -> Iterator[tuple[str, str]]:
+    """Random calls from Python on the face compiled by `sanitized`, which stands in for each FMU's binary."""
+    for fmu in fmus:
+        copy = stage / Path(fmu).name
+        with zipfile.ZipFile(fmu) as archive, zipfile.ZipFile(copy, "w") as sanitized_fmu:
+            for name in archive.namelist():
+                sanitized_fmu.writestr(name, _sanitized_part(name, archive.read(name), read_model_description(fmu).guid, stage))
+        library = run(["gcc", "-print-file-name=libasan.so"])
+        command = [
+            sys.executable,
+            str(Path(__file__).with_name("robustness.py")),
+            str(copy),
+            "--calls",
+            str(CALLS),
+            "--corners",
+            "0",
+        ]
+        # Python itself keeps memory to its end.
+        yield copy.stem, run(["env", f"LD_PRELOAD={library}", "ASAN_OPTIONS=detect_leaks=0", *command])
+
+
+def _sanitized_part(name: str, content: bytes, identity: str, stage: Path) -> bytes:
+    if name == "modelDescription.xml":
+        return content.replace(identity.encode(), SANITIZED.encode())
+    return (stage / "face.so").read_bytes() if name.endswith(".so") else content
 
 
 def in_valgrind(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
@@ -96,12 +127,14 @@ def in_wine(fmu: str, stage: Path, wine: str) -> Iterator[tuple[str, str]]:
 
 def main() -> None:
     """Print the table."""
-    fmu = sys.argv[1]
+    fmu, *_ = fmus = sys.argv[1:]
     wine = next((found for name in WINE if (found := shutil.which(name))), None)
     with tempfile.TemporaryDirectory() as folder:
         print("| host | scenario | outcome |\n|---|---|---|")
         for scenario, outcome in sanitized(fmu, Path(folder)):
             print(f"| Linux, sanitized | {scenario} | {outcome} |", flush=True)
+        for name, outcome in shaken(fmus, Path(folder)):
+            print(f"| Linux, sanitized | random calls on {name} | {outcome} |", flush=True)
         if shutil.which("valgrind"):
             for scenario, outcome in in_valgrind(fmu, Path(folder)):
                 print(f"| Linux, valgrind | {scenario} | {outcome} |", flush=True)

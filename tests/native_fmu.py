@@ -12,7 +12,7 @@ from comprope.errors import InputError
 from comprope.fmi.build import Origin
 from comprope.fmi.engine import ModelInterface
 from comprope.native import link
-from comprope.native.build import build_native
+from comprope.native.build import STANDARDS, build_native
 from comprope.rope.engine import interface
 from comprope.rope.modelfile import load
 from comprope_system import presets
@@ -38,11 +38,11 @@ def tower() -> ModelInterface:
 
 
 @cache
-def native_fmu() -> Path:
-    """The FMU; building takes half a minute."""
+def native_fmu(ending: str = "native") -> Path:
+    """The FMU for FMI 2.0 or, ending in `native-fmi3`, for FMI 3.0; building both takes half a minute."""
     folder = Path(tempfile.gettempdir()) / "comprope-native" / _digest()
-    if not (made := folder / "CompensationRope-native.fmu").is_file():
-        build_native(tower(), folder, ORIGIN, targets=[link.here()])
+    if not (made := folder / f"CompensationRope-{ending}.fmu").is_file():
+        build_native(tower(), folder, ORIGIN, STANDARDS, [link.here()])
     return made
 
 

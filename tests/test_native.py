@@ -23,10 +23,11 @@ import comprope
 from comprope.errors import CompropeError, InputError
 from comprope.fmi.description import completed
 from comprope.fmi.face import slave_class
+from comprope.fmi.reference import IN, OUT
 from comprope.native import link
+from comprope.native.fmi2 import universal
 from comprope.native.ir import require_no_python
 from comprope.native.machine import TARGETS
-from comprope.native.reference import IN, OUT
 from comprope.native.tables import quoted
 from comprope.rope.words import WORDS, require_fine
 from comprope_system import presets
@@ -93,7 +94,7 @@ def test_needs_nothing_but_the_c_library(fmu: Path, tmp_path: Path) -> None:
     text = {"snprintf", "vsnprintf", "__snprintf_chk", "__vsnprintf_chk", "__stack_chk_fail"}
     numbers = {"sin", "cos", "sincos", "exp", "pow", "rint", "ceil", "fmax", "fmin", "sqrt"}
     assert needed <= memory | text | numbers
-    assert all(name.startswith(("fmi2", "_")) for name, kind in symbols.items() if kind == "T")
+    assert all(name.startswith(("fmi2", "fmi3", "_")) for name, kind in symbols.items() if kind == "T")
 
 
 def unpacked(fmu: Path, folder: Path) -> Path:
@@ -255,17 +256,18 @@ table = as_table(load(Path(model))) | {"own_effects": effects}
 # Not computed again, since that would compile the kernels once more.
 archive = zipfile.ZipFile(fmu)
 build.reference = lambda _: {name: archive.read(name) for name in archive.namelist() if name.startswith("resources/")}
-build.build_native(interface(validated(table, model)), Path(out), Origin(version, licence), [link.here()])
+rope = interface(validated(table, model))
+build.build_native(rope, Path(out), Origin(version, licence), build.STANDARDS, [link.here()])
 """
 
 
 def built_apart(out: Path, fmu: Path, sources: Path, *effects: Path) -> Path:
-    """The same FMU built by the package in `sources` in another process, with effects from files."""
+    """The same FMUs built by the package in `sources` in another process, with effects from files; that for FMI 2.0."""
     given = [str(presets.model_path("tower50")), str(out), str(fmu), ORIGIN.version, ORIGIN.licence, *map(str, effects)]
     places = os.pathsep.join([str(sources), os.environ.get("PYTHONPATH", "")])
     environment = os.environ | {"PYTHONPATH": places, "COMPROPE_ALLOW_CODE": "1"}
     subprocess.run([sys.executable, "-c", BUILD, *given], env=environment, check=True)
-    assert [path.name for path in out.iterdir()] == [fmu.name]
+    assert sorted(path.name for path in out.iterdir()) == [native_fmu("native-fmi3").name, fmu.name]
     return out / fmu.name
 
 
@@ -276,6 +278,8 @@ def test_same_source_same_bytes(fmu: Path, tmp_path: Path) -> None:
     with (copy / "rope" / "words.py").open("a") as file:
         file.write("# a remark\n")
     assert built_apart(out, fmu, copy.parent).read_bytes() == fmu.read_bytes()
+    other = native_fmu("native-fmi3")
+    assert (out / other.name).read_bytes() == other.read_bytes()
 
 
 PULL = """\
@@ -297,9 +301,34 @@ acts(SheavePull, forces=pull)
 """
 
 
-def test_an_effect_from_a_file_is_compiled_in(fmu: Path, tmp_path: Path) -> None:
+BESIDE = """\
+import sys
+from pathlib import Path
+from comprope.rope.engine import interface
+from comprope.rope.modelfile import as_table, load, validated
+from tests.fmi_pair import Pair
+
+model, fmu, *effects = sys.argv[1:]
+rope = interface(validated(as_table(load(Path(model))) | {"own_effects": effects}, model))
+pair = Pair(Path(fmu), rope)
+brush = {"effects.pit_brush.damping": 20.0, "effects.pit_brush.top": 30.0, "effects.building_sway.amplitude": 0.05}
+pair.start(brush | {"effects.sheave_pull.force": 150.0, "rope.element_length": 0.2})
+for k in range(1, 31):
+    pair.put(["car_position", "counterweight_position"], [1e-4 * k * k, 50.0 - 1e-4 * k * k])
+    pair.step(0.01)
+    pair.read()
+assert pair.refusals == 0
+"""
+
+
+def test_effects_from_files_are_compiled_in(fmu: Path, tmp_path: Path) -> None:
+    """They do what they do just in time, to the last bit, and nothing while they are off."""
+    root, model = Path(__file__).parent.parent, str(presets.model_path("tower50"))
     (tmp_path / "pull.py").write_text(PULL)
-    made = built_apart(tmp_path / "out", fmu, Path(comprope.__file__).parents[1], tmp_path / "pull.py")
+    effects = (tmp_path / "pull.py", root / "docs" / "examples" / "pit_brush.py")
+    made = built_apart(tmp_path / "out", fmu, Path(comprope.__file__).parents[1], *effects)
+    command = [sys.executable, "-c", BESIDE, model, str(made), *map(str, effects)]
+    subprocess.run(command, env=os.environ | {"COMPROPE_ALLOW_CODE": "1"}, cwd=root, check=True)
     assert validate_fmu(str(made)) == []
     short = {"stop_time": 0.1, "step_size": 0.01, "output_interval": 0.01}
     without, off = simulate_fmu(str(fmu), **short), simulate_fmu(str(made), **short)
@@ -356,7 +385,7 @@ def test_without_zig_only_this_system_is_compiled_for(monkeypatch: pytest.Monkey
 
 def test_one_file_for_several_processors() -> None:
     parts: list[Any] = [b"\xcf\xfa\xed\xfe" + number.to_bytes(4, "little") * 2 + bytes(5000) for number in (7, 12)]
-    whole = link.universal(parts)
+    whole = universal(parts)
     for place, part in enumerate(parts):
         at = int.from_bytes(whole[8 + 20 * place + 8 :][:4], "big")
         assert at % 16384 == 0 and whole[at : at + len(part)] == part

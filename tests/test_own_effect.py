@@ -97,7 +97,8 @@ def test_the_example_runs_with_consent_and_not_without(capsys, monkeypatch, tmp_
     model, quick = EXAMPLES / "rail_joints.toml", ["--set", "rope.element_length=0.2", "--time", "0.1", "--direct"]
     status, told, errors = command(capsys, "simulate", model, *quick)
     file = EXAMPLES / "rail_joints.py"
-    refusal = "would be run as a program; read it, then allow it: comprope --allow-code ..., or COMPROPE_ALLOW_CODE=1"
+    ways = "comprope --allow-code ..., build_fmu.py --allow-code, or COMPROPE_ALLOW_CODE=1"
+    refusal = f"would be run as a program; read it, then allow it: {ways}"
     assert (status, told, errors) == (2, "", f"{model}: own_effects: {file} {refusal}\n")
     assert "rail_joints" not in REGISTRY
     status, _, errors = command(capsys, "--allow-code", "simulate", model, "--time", "0", "--set", "shaft.pit=-1")

@@ -1,6 +1,7 @@
 """The command `comprope`: finds its subcommands and turns errors into one line each and an exit status."""
 
 import importlib
+import os
 import pkgutil
 import sys
 from typing import Annotated
@@ -13,6 +14,8 @@ from comprope.errors import CompropeError, InputError
 from . import commands
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
+# Matrices here are small: threads of the linear algebra would only wait for one another, for seconds on a busy machine.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 app = typer.Typer(add_completion=False, rich_markup_mode="markdown", pretty_exceptions_enable=False)
 

@@ -7,6 +7,7 @@ counts if it changes while a trip is on. What the input holds at the start is no
 
 from collections.abc import Mapping
 from math import ceil
+from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
@@ -28,6 +29,7 @@ from .drive.engine import interface
 INTERFACE = interface()
 """
 _DESCRIPTION = "Elevator drive: jerk-limited trips, position and speed servo, car and counterweight on elastic hoist ropes"
+_PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in ("lift", "trip"))
 _REST_AFTER = 5.0  # s that a run goes on after the first trip, unless told otherwise
 _REAL_OUTPUTS = (  # name, unit, nominal, help
     ("car_position", "m", 10.0, "car height above the bottom landing"),
@@ -53,7 +55,7 @@ def interface(drive: Drive | None = None) -> ModelInterface:
     chosen = drive or Drive()
     stop_time = ceil(first_course(chosen).end_time + _REST_AFTER)
     variables = _parameters(chosen) + _inputs(chosen) + _outputs()
-    return ModelInterface(NAME, _DESCRIPTION, variables, create, stop_time=float(stop_time))
+    return ModelInterface(NAME, _DESCRIPTION, variables, create, stop_time=float(stop_time), pictures=_PICTURES)
 
 
 def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> DriveEngine:

@@ -114,12 +114,14 @@ def build(
     origin: Origin,
     data: Mapping[str, bytes] | None = None,
     root: Path = COMPROPE,
+    extra: Mapping[str, bytes] | None = None,
 ) -> Path:
     """Write `<out>/<name>.fmu`, whole or not at all, and return its path.
 
     `packages` are the folders in `root` that the model needs as subpackages of `comprope`, besides the face.
     `entry` is source text that defines INTERFACE inside the copied package, where imports are relative and
-    the `data` files lie in the folder HERE. The same arguments give the same bytes.
+    the `data` files lie in the folder HERE. `extra` files go into the FMU by their path there. The same arguments
+    give the same bytes.
     Raises `InputError` for an interface that does not hold together or a folder that cannot be written.
     """
     if problems := interface_problems(interface):
@@ -127,7 +129,7 @@ def build(
     files = _sources(packages, root) | dict(data or {}) | {"bundled.py": _ENTRY.format(entry=entry).encode()}
     bundle = Bundle("_".join(["comprope", *packages]), files)
     content = _packed(interface.name, bundle, origin)
-    content |= _documentation(interface, origin, bundle.needs)
+    content |= _documentation(interface, origin, bundle.needs) | dict(extra or {})
     xml = content.pop(DESCRIPTION)
     guid = str(uuid.UUID(digest(content | {DESCRIPTION: completed(xml, interface, origin.version, "")})[:32]))
     content[DESCRIPTION] = completed(xml, interface, origin.version, guid)

@@ -17,24 +17,29 @@ _CAPABILITIES = ("canGetAndSetFMUstate", "canSerializeFMUstate", "canHandleVaria
 def completed(xml: bytes, interface: ModelInterface, version: str, guid: str) -> bytes:
     """The model description of `interface`, from the one pythonfmu wrote; the same for the same arguments."""
     root = ET.fromstring(xml)
-    root.attrib.update(
-        guid=guid,
-        description=interface.description,
-        author="comprope",
-        version=version,
-        copyright="Copyright (c) the comprope authors",
-        license="MIT; see documentation/licenses",
-        generationTool=f"comprope {version}, {root.get('generationTool')}",
-        generationDateAndTime=FIXED_DATE,
-    )
+    tool = f"comprope {version}, {root.get('generationTool')}"
+    root.attrib.update(guid=guid, **about(interface, version) | {"generationTool": tool})
     _only(root, "CoSimulation").attrib.update(dict.fromkeys(_CAPABILITIES, "true"))
-    root.insert(1, _unit_definitions(interface.variables))
-    root.insert(list(root).index(_only(root, "ModelVariables")), _default_experiment(interface))
+    root.insert(1, unit_definitions(interface.variables))
+    root.insert(list(root).index(_only(root, "ModelVariables")), default_experiment(interface))
     for element, variable in zip(_only(root, "ModelVariables"), interface.variables, strict=True):
-        element[0].attrib.update(_type_attributes(variable))
+        element[0].attrib.update(type_attributes(variable))
     _rebuild_structure(_only(root, "ModelStructure"), interface)
     ET.indent(root)
     return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
+
+
+def about(interface: ModelInterface, version: str) -> dict[str, str]:
+    """Where an FMU comes from and what it is, in attributes that every version of FMI has."""
+    return {
+        "description": interface.description,
+        "author": "comprope",
+        "version": version,
+        "copyright": "Copyright (c) the comprope authors",
+        "license": "MIT; see documentation/licenses",
+        "generationTool": f"comprope {version}",
+        "generationDateAndTime": FIXED_DATE,
+    }
 
 
 def _only(root: ET.Element, tag: str) -> ET.Element:
@@ -44,7 +49,8 @@ def _only(root: ET.Element, tag: str) -> ET.Element:
     return found
 
 
-def _unit_definitions(variables: Iterable[Variable]) -> ET.Element:
+def unit_definitions(variables: Iterable[Variable]) -> ET.Element:
+    """The units of real variables, each in base units, with those to display them in."""
     displays: dict[str, set[str]] = {}
     for one in variables:
         if one.kind == "real":
@@ -58,12 +64,13 @@ def _unit_definitions(variables: Iterable[Variable]) -> ET.Element:
     return definitions
 
 
-def _default_experiment(interface: ModelInterface) -> ET.Element:
+def default_experiment(interface: ModelInterface) -> ET.Element:
+    """Times and step that an importer takes when told nothing else."""
     times = {"startTime": 0.0, "stopTime": interface.stop_time, "stepSize": interface.step_size}
     return ET.Element("DefaultExperiment", {name: repr(value) for name, value in times.items()})
 
 
-def _type_attributes(variable: Variable) -> dict[str, str]:
+def type_attributes(variable: Variable) -> dict[str, str]:
     """Attributes of the type element: start value, and what a number has besides."""
     found: dict[str, Value | None] = {"start": variable.start}
     if variable.kind in ("real", "integer"):

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal, Protocol
 
 from ..declare import Component, quantities
@@ -67,7 +68,9 @@ class ModelInterface:
 
     `create(parameters, inputs, start_time)` makes an engine from values by name; it raises
     `InputError` with one sentence that holds all problems, joined by "; ".
-    `stop_time` and `step_size` [s] are what an importer uses when told nothing else.
+    `stop_time` and `step_size` [s] are what an importer uses when told nothing else. `pictures` are SVG files that show
+    what the variables are. `motion(time)` gives real inputs by name for the run that is kept as a reference, over 4 s; others
+    hold their start values.
     """
 
     name: str
@@ -76,6 +79,8 @@ class ModelInterface:
     create: Callable[[Mapping[str, Any], Mapping[str, Any], float], Engine]
     stop_time: float = 10.0
     step_size: float = 0.001
+    pictures: tuple[Path, ...] = ()
+    motion: Callable[[float], Mapping[str, float]] = lambda _time: {}
 
     def of_role(self, role: Role) -> tuple[Variable, ...]:
         """The variables of one role, in their order."""

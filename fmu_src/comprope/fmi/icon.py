@@ -5,19 +5,19 @@ import zlib
 
 import numpy as np
 
-_SIZE = 128
+SIZE = 128
 _ROPE = (40, 60, 90)
 _SHEAVE = (215, 120, 40)
 
 
 def icon() -> bytes:
     """A PNG of 128 by 128 pixels, transparent around the drawing."""
-    y, x = np.mgrid[0:_SIZE, 0:_SIZE] + 0.5
+    y, x = np.mgrid[0:SIZE, 0:SIZE] + 0.5
     dx, dy = x - 64.0, y - 72.0
     radius = np.hypot(dx, dy)
     rope = np.where(dy > 0.0, np.abs(radius - 44.0), np.abs(np.abs(dx) - 44.0)) - 4.0
     sheave = np.minimum(np.abs(radius - 34.0) - 4.5, radius - 7.0)
-    picture = np.zeros((_SIZE, _SIZE, 4))
+    picture = np.zeros((SIZE, SIZE, 4))
     for distance, colour in ((sheave, _SHEAVE), (rope, _ROPE)):
         cover = np.clip(0.5 - distance, 0.0, 1.0)  # one pixel of transition makes edges smooth
         picture[cover > 0.0, :3] = colour

@@ -1,5 +1,6 @@
 /* What FMI 2.0 has and this FMU does not, and how an instance stands. */
 
+#include "fmi2Functions.h"
 #include "instance.h"
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count,

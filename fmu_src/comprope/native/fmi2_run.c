@@ -1,5 +1,6 @@
 /* The life of an instance and its steps in FMI 2.0, each function a thin skin around one of `Run`. */
 
+#include "fmi2Functions.h"
 #include "instance.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* Saved states in FMI 2.0, each function a thin skin around one of `state.h`. */
 
+#include "fmi2Functions.h"
 #include "instance.h"
 #include "state.h"
 

@@ -1,5 +1,6 @@
 /* Values by reference in FMI 2.0. */
 
+#include "fmi2Functions.h"
 #include "instance.h"
 
 #include <limits.h>

@@ -3,7 +3,6 @@
 import importlib.util
 import platform
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
@@ -47,12 +46,8 @@ def systems(targets: Iterable[str]) -> str:
 
 
 def binaries(name: str, kernels: Mapping[str, bytes], generated: Mapping[str, str]) -> dict[str, bytes]:
-    """Binaries of the FMU `name` by their path in it, from the kernels' machine code by target and generated C files."""
-    found: dict[str, list[bytes]] = {}
-    for place, code in kernels.items():
-        target = TARGETS[place]
-        found.setdefault(f"binaries/{target.folder}/{name}.{target.extension}", []).append(_linked(name, code, generated, target))
-    return {path: universal(parts) if len(parts) > 1 else parts[0] for path, parts in found.items()}
+    """Binaries of the FMU `name` by target, from the kernels' machine code by target and generated C files."""
+    return {place: _linked(name, code, generated, TARGETS[place]) for place, code in kernels.items()}
 
 
 def _linked(name: str, kernels: bytes, generated: Mapping[str, str], target: Target) -> bytes:
@@ -110,18 +105,3 @@ def here() -> str:
     if name not in TARGETS or (kind == "arm64" and "arm64" not in name):
         raise InputError(f"{sys.platform} on {platform.machine()}: binaries can be made for {', '.join(TARGETS)}")
     return name
-
-
-_FAT_MAGIC, _ALIGNMENT = 0xCAFEBABE, 14  # pages of 16 kB suit both processors
-
-
-def universal(parts: list[bytes]) -> bytes:
-    """One file for macOS from binaries of several processors."""
-    at, table, body = 1 << _ALIGNMENT, b"", b""
-    for part in parts:
-        processor, kind = struct.unpack_from("<II", part, 4)
-        table += struct.pack(">IIIII", processor, kind, at, len(part), _ALIGNMENT)
-        body += part + bytes(-len(part) % (1 << _ALIGNMENT))
-        at = (1 << _ALIGNMENT) + len(body)
-    head = struct.pack(">II", _FAT_MAGIC, len(parts)) + table
-    return head + bytes((1 << _ALIGNMENT) - len(head)) + body

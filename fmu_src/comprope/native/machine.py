@@ -11,12 +11,13 @@ from .ir import PREFIX
 class Target:
     """A system that binaries are made for.
 
-    `system` is its name for people, `folder` and `extension` are what FMI has for it, `triple` and `cpu` are
-    LLVM's words, `zig` is the target that zig links for. Binaries of several processors for one folder go into one file.
+    `system` is its name for people, `folder` (FMI 2.0), `platform` (FMI 3.0) and `extension` are what FMI has for it,
+    `triple` and `cpu` are LLVM's words, `zig` is the target that zig links for.
     """
 
     system: str
     folder: str
+    platform: str
     extension: str
     triple: str
     cpu: str
@@ -26,10 +27,14 @@ class Target:
 _MACOS = "macOS (Intel and Apple)"
 # The oldest processors of each kind: wider vector units gain little, and every one gives the same bits.
 TARGETS = {
-    "linux": Target("Linux", "linux64", "so", "x86_64-unknown-linux-gnu", "x86-64", "x86_64-linux-gnu.2.17"),
-    "windows": Target("Windows", "win64", "dll", "x86_64-w64-windows-gnu", "x86-64", "x86_64-windows-gnu"),
-    "macos-x86_64": Target(_MACOS, "darwin64", "dylib", "x86_64-apple-macosx11.0.0", "x86-64", "x86_64-macos.11.0"),
-    "macos-arm64": Target(_MACOS, "darwin64", "dylib", "arm64-apple-macosx11.0.0", "apple-m1", "aarch64-macos.11.0"),
+    "linux": Target("Linux", "linux64", "x86_64-linux", "so", "x86_64-unknown-linux-gnu", "x86-64", "x86_64-linux-gnu.2.17"),
+    "windows": Target("Windows", "win64", "x86_64-windows", "dll", "x86_64-w64-windows-gnu", "x86-64", "x86_64-windows-gnu"),
+    "macos-x86_64": Target(
+        _MACOS, "darwin64", "x86_64-darwin", "dylib", "x86_64-apple-macosx11.0.0", "x86-64", "x86_64-macos.11.0"
+    ),
+    "macos-arm64": Target(
+        _MACOS, "darwin64", "aarch64-darwin", "dylib", "arm64-apple-macosx11.0.0", "apple-m1", "aarch64-macos.11.0"
+    ),
 }
 
 

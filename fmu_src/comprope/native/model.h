@@ -22,6 +22,7 @@ extern const Variable VARIABLES[];
 extern const size_t VARIABLE_COUNT; /* parameters, then inputs, then outputs */
 extern const size_t OUTPUT_COUNT;
 extern const char MODEL_NAME[];
-extern const char MODEL_GUID[];
+extern const char MODEL_GUID[];  /* of FMI 2.0 */
+extern const char MODEL_TOKEN[]; /* of FMI 3.0 */
 
 #endif

@@ -26,15 +26,16 @@ _HELD = ("n", "m", "effects", "state_size")  # numbers that stay the same for on
 _C = {"integer": "int64_t", "flag": "int8_t", "number": "double", "array": "double *"}
 
 
-def model_source(interface: ModelInterface, guid: str) -> str:
-    """The variables as C's `VARIABLES` (see model.h)."""
+def model_source(interface: ModelInterface, guid: str, token: str) -> str:
+    """The variables as C's `VARIABLES`, and the identity for FMI 2.0 and 3.0 (see model.h)."""
     rows = "".join(f"    {_row(one)},\n" for one in interface.variables)
     outputs = len(interface.of_role("output"))
     return (
         f'{_HEADING}#include "model.h"\n\n#include <math.h>\n\n'
         f"const Variable VARIABLES[] = {{\n{rows}}};\n\n"
         f"const size_t VARIABLE_COUNT = {len(interface.variables)};\nconst size_t OUTPUT_COUNT = {outputs};\n"
-        f"const char MODEL_NAME[] = {quoted(interface.name)};\nconst char MODEL_GUID[] = {quoted(guid)};\n"
+        f"const char MODEL_NAME[] = {quoted(interface.name)};\n"
+        f"const char MODEL_GUID[] = {quoted(guid)};\nconst char MODEL_TOKEN[] = {quoted(token)};\n"
     )
 
 

@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 from functools import partial
+from math import cos, pi
+from pathlib import Path
 from typing import Any
 
 from ..fmi.engine import ModelInterface, Value, Variable, parameters_of
@@ -24,7 +26,9 @@ _DESCRIPTION = (
     "Elevator compensation rope on a free sheave: lateral displacement at sensors and sheave force, from the car's and "
     "the counterweight's positions"
 )
+_PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in ("shaft", "sheave", "element", "ends"))
 _ENDS = ("car", "counterweight")
+_RISE, _RISE_TIME = 2.0, 4.0  # m, s, of the run kept as a reference
 _STEP = 0.01  # s, communication step that an importer uses when told nothing else
 _OUTPUTS = (  # name, unit, nominal, help
     ("sheave_force", "N", 1000.0, "vertical force of the rope on the sheave, up positive; its weight when at rest"),
@@ -55,7 +59,14 @@ def interface(model: Base) -> ModelInterface:
     """Variables and maker of the rope; parameters start at the values of `model`, sensors are as many as its."""
     variables = (*_parameters(model), *_inputs(model), *_outputs(len(model.sensors)))
     make = partial(create, own_effects=tuple(getattr(model, "own_effects", ())))
-    return ModelInterface(NAME, _DESCRIPTION, variables, make, stop_time=30.0, step_size=_STEP)
+    motion = partial(_ends_rising, model.shaft.height)
+    return ModelInterface(NAME, _DESCRIPTION, variables, make, 30.0, _STEP, _PICTURES, motion)
+
+
+def _ends_rising(height: float, time: float) -> dict[str, float]:
+    """Positions [m] while the car rises by _RISE, less in a low shaft: half a cosine, from rest to rest."""
+    risen = 0.5 * min(_RISE, 0.25 * height) * (1.0 - cos(pi * min(time / _RISE_TIME, 1.0)))
+    return {"car_position": risen, "counterweight_position": height - risen}
 
 
 def create(

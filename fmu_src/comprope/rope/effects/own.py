@@ -45,7 +45,7 @@ def read(path: Path, *, allow_code: bool = False) -> None:
     """
     text = text_of(path)
     if _same(text) is None and not (allow_code or consent.given()):
-        allow = f"comprope --allow-code ..., or {consent.VARIABLE}=1"
+        allow = f"comprope --allow-code ..., build_fmu.py --allow-code, or {consent.VARIABLE}=1"
         raise InputError(f"{path} would be run as a program; read it, then allow it: {allow}")
     admit(str(path), text)
 

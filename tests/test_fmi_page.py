@@ -1,0 +1,51 @@
+"""The page inside an FMU: its pictures speak of the variables by their names."""
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+
+import pytest
+
+from comprope.drive.engine import interface as drive_interface
+from comprope.fmi.engine import ModelInterface
+from comprope.fmi.page import page
+from comprope.rope.engine import interface as rope_interface
+from comprope.rope.modelfile import load
+from comprope_system import presets
+
+ROPE, DRIVE = rope_interface(load(presets.model_path("tower50"))), drive_interface()
+SVG = "{http://www.w3.org/2000/svg}"
+# Numbers without a place in the lift, or that their line of help tells better than a picture.
+UNSEEN = {
+    "shaft.gravity", "rope.count", "solver.step", "solver.numerical_damping", "derivative_inputs", "inputs_at_end",
+    "profile.smoothing", "trip.start_position", "trip.destination", "servo.torque_limit", "servo.sample_period",
+    "servo.velocity_feedforward", "servo.acceleration_feedforward",
+}  # fmt: skip
+
+
+def labels(model: ModelInterface) -> Iterator[str]:
+    """Names of variables in the pictures: what stands in typewriter letters, with k for any number."""
+    for path in model.pictures:
+        for group in ET.parse(path).iter(f"{SVG}g"):
+            if group.get("font-family") == "monospace":
+                texts = (one.text or "" for one in group.iter(f"{SVG}text") if not one.get("font-family"))
+                yield from (name.replace("[k]", "[1]") for text in texts for name in re.split(r",\s*", text) if name)
+
+
+@pytest.mark.parametrize("model", [ROPE, DRIVE], ids=lambda model: model.name)
+def test_pictures_show_what_is_declared(model: ModelInterface) -> None:
+    assert set(labels(model)) <= {one.name for one in model.variables}
+
+
+@pytest.mark.parametrize("model", [ROPE, DRIVE], ids=lambda model: model.name)
+def test_every_parameter_is_in_a_picture_or_known_to_be_in_none(model: ModelInterface) -> None:
+    series = re.compile(r"curve\.|shaper\.|sensors\[[2-9]|.*\.on_counterweight_side")
+    names = {one.name for one in model.of_role("parameter") if not series.match(one.name)}
+    assert names - set(labels(model)) <= UNSEEN
+
+
+def test_the_page_holds_every_picture_and_variable() -> None:
+    text = page(ROPE, "1.2.3", systems="Linux", fmi="3.0")
+    assert text.count("<svg ") == len(ROPE.pictures) == 4
+    assert all(f"<code>{one.name}</code>" in text for one in ROPE.variables)
+    assert "FMI 3.0 co-simulation" in text and "fmi3Error" in text
