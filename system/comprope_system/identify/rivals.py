@@ -26,6 +26,7 @@ ADEQUATE = 0.85  # misfit per datum below which there is nothing to explain
 REFINED = 4  # hypotheses that are refined on the full model, if no other one leads
 RIVAL = 2.0  # times the best fit's misfit above which a fit is not worth its time
 PROMISING = 0.1  # of what the best linear look explains: the least that is worth a fit
+NOTICED = 0.01  # of misfit per datum: less than that is no reason for a fit
 SECOND = 0.85  # of the misfit that the best effect may leave if a second one is to be looked for
 PAIRS = 2  # second effects that are refined with the first
 LEFT = 1.05  # misfit per datum above which a fit is worth another with more set free
@@ -61,12 +62,13 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
     A linear look alone does not win: whichever leads is fitted as well, until what leads is a fit.
     """
     worst = max(one.misfit for one in screened)
-    least = max(PROMISING * (worst - screened[0].misfit), 0.01 * len(problem.data))
+    worth = NOTICED * len(problem.data)
+    least = max(PROMISING * (worst - screened[0].misfit), worth)
     found = [_by_look(one, none, worst) for one in screened]
     for k, one in enumerate(screened[:REFINED]):
         if worst - one.misfit > least:
             found[k] = _on_full_model(problem, origin, one, none, found, say)
-    while not found[leader := _leader(found, len(problem.data))].refined and found[leader].fitted.misfit < none.misfit - least:
+    while not found[leader := _leader(found, len(problem.data))].refined and found[leader].fitted.misfit < none.misfit - worth:
         found[leader] = _on_full_model(problem, origin, screened[leader], none, found, say)
     return found
 
