@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 ENOUGH = 2e-3  # of the number of data: a fall of the cost below this ends the iteration
 ROUNDS = 15
 TRUSTED = 3  # rounds after which what a fit expects is believed: friction answers to its size by far other than a line
-HOPELESS = 20.0  # times the rival that a fit may expect in these rounds before it is given up all the same
+HOPELESS = 6.0  # times the rival that a fit may expect in these rounds before it is given up all the same
 SHORTER = (0.3, 0.1, 0.03)  # of a step that leads uphill
 
 

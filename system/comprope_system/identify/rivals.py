@@ -29,6 +29,7 @@ PROMISING = 0.1  # of what the best linear look explains: the least that is wort
 NOTICED = 0.01  # of misfit per datum: less than that is no reason for a fit
 SECOND = 0.85  # of the misfit that the best effect may leave if a second one is to be looked for
 PAIRS = 2  # second effects that are refined with the first
+NEAR = 1.15  # times the best fit's misfit: near enough to it
 LEFT = 1.05  # misfit per datum above which a fit is worth another with more set free
 WORTH = 0.97  # of its misfit that it must fall to
 
@@ -66,11 +67,17 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
     least = max(PROMISING * (worst - screened[0].misfit), worth)
     found = [_by_look(one, none, worst) for one in screened]
     for k, one in enumerate(screened[:REFINED]):
-        if worst - one.misfit > least:
+        if worst - one.misfit > least and _may_win(found[k], none, found):
             found[k] = _on_full_model(problem, origin, one, none, found, say)
     while not found[leader := _leader(found, len(problem.data))].refined and found[leader].fitted.misfit < none.misfit - worth:
         found[leader] = _on_full_model(problem, origin, screened[leader], none, found, say)
     return found
+
+
+def _may_win(one: Trial, none: Fitted, found: Sequence[Trial]) -> bool:
+    """Whether an effect that explains half as much again as its linear look has it would come near the best fit so far."""
+    explained = none.misfit - one.fitted.misfit
+    return one.fitted.misfit - 0.5 * explained < NEAR * min((own.fitted.misfit for own in found if own.refined), default=none.misfit)
 
 
 def _leader(found: Sequence[Trial], count: int) -> int:
