@@ -76,8 +76,8 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
 
 def _may_win(one: Trial, none: Fitted, found: Sequence[Trial]) -> bool:
     """Whether an effect that explains half as much again as its linear look has it would come near the best fit so far."""
-    explained = none.misfit - one.fitted.misfit
-    return one.fitted.misfit - 0.5 * explained < NEAR * min((own.fitted.misfit for own in found if own.refined), default=none.misfit)
+    at_best = one.fitted.misfit - 0.5 * (none.misfit - one.fitted.misfit)
+    return at_best < NEAR * min((own.fitted.misfit for own in found if own.refined), default=none.misfit)
 
 
 def _leader(found: Sequence[Trial], count: int) -> int:
