@@ -1,22 +1,24 @@
-"""Fits of one hypothesis: Gauss and Newton's method on plant and effect together, within bounds and priors."""
+"""Fits of one hypothesis: Gauss and Newton's method on plant and effect together, within bounds and priors.
 
-from collections.abc import Iterator, Sequence
-from contextlib import suppress
+Derivatives along a run cost several plain runs. So they are carried from step to step by Broyden's update (1965), which makes
+them right along the step just made, and found anew where a step gives much less than they promise, and at the end.
+"""
+
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.errors import SimulationError
-
-from .hypotheses import NUISANCES, Direction, Hypothesis
-from .linear import directions_of, linearised, misfits, point_of
+from .hypotheses import NUISANCES, Hypothesis
+from .linear import directions_of, linearised, point_of
 from .point import Point, Predictions
 from .problem import Problem, Solution, scale_of, solve
 
 Floats = NDArray[np.float64]
-ENOUGH = 2e-3  # of the number of data: a fall of the cost below this ends the iteration
-ROUNDS = 15
+ENOUGH = 4e-3  # of the number of data: a fall of the cost below this ends the iteration
+ROUNDS = 40
+KEPT = 0.5  # of what a step promises: the least that it must give for its derivatives to be carried on
 TRUSTED = 3  # rounds after which what a fit expects is believed: friction answers to its size by far other than a line
 HOPELESS = 6.0  # times the rival that a fit may expect in these rounds before it is given up all the same
 SHORTER = (0.3, 0.1, 0.03)  # of a step that leads uphill
@@ -62,60 +64,63 @@ def refine(
 
     A fit that expects to end above `rival` is left where it is. Raises `SimulationError` if `start` cannot be simulated.
     """
-    directions, x = directions_of(hypothesis), np.asarray(start, float)
-    best, count = _evaluate(problem, hypothesis, x, base, directions, begun), len(problem.data)
+    directions, count, fresh = directions_of(hypothesis), len(problem.data), True
+    best = _evaluate(problem, hypothesis, np.asarray(start, float), base, begun)
     for done in range(ROUNDS):
         # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
         scale = scale_of(best.misfit, count)
         solution = solve(problem.data - problem.whitened(best.predictions), best.by, directions, best.coefficients, scale)
         best = replace(best, deviation=solution.deviation)
-        hopeless = solution.misfit > rival * (1.0 if done >= TRUSTED else HOPELESS)
-        if hopeless or best.cost(scale) - solution.cost < ENOUGH * scale * count:
+        if solution.misfit > rival * (1.0 if done >= TRUSTED else HOPELESS):
             break
-        found = _downhill(problem, best, solution, base, scale)
-        gain, best = best.cost(scale) - found.cost(scale), found
-        if gain < ENOUGH * scale * count:
+        enough, promised, before = ENOUGH * scale * count, best.cost(scale) - solution.cost, best.cost(scale)
+        if promised >= enough:
+            best = _downhill(problem, best, solution, base, scale)
+        gain = before - best.cost(scale)
+        if fresh and gain < enough:
             break
+        fresh = gain < max(enough, KEPT * promised)
+        if fresh:
+            best = replace(_evaluate(problem, hypothesis, best.coefficients, base), deviation=best.deviation)
     return best
 
 
 def _evaluate(
-    problem: Problem,
-    hypothesis: Hypothesis | None,
-    x: Floats,
-    base: Point,
-    directions: Sequence[Direction],
-    known: tuple[Predictions, Floats] | None = None,
+    problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point, known: tuple[Predictions, Floats] | None = None
 ) -> Fitted:
-    predictions, by = known or linearised(problem, hypothesis, x, base)
+    return _fitted(problem, hypothesis, x, base, *(known or linearised(problem, hypothesis, x, base)))
+
+
+def _fitted(
+    problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point, predictions: Predictions, by: Floats
+) -> Fitted:
     residual = problem.data - problem.whitened(predictions)
-    misfit = float(residual @ residual)
+    penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, directions_of(hypothesis), strict=True)))
     point, none = point_of(hypothesis, list(x), base), np.zeros(len(x))
-    return Fitted(hypothesis, point, predictions, x, none, by, misfit, _penalty(x, directions))
-
-
-def _penalty(x: Floats, directions: Sequence[Direction]) -> float:
-    return float(sum((c / one.prior) ** 2 for c, one in zip(x, directions, strict=True)))
+    return Fitted(hypothesis, point, predictions, x, none, by, float(residual @ residual), penalty)
 
 
 def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, scale: float) -> Fitted:
     """The solution's point, or one nearer to the present where that one is worse than it or cannot be simulated."""
-    step, directions = solution.coefficients - best.coefficients, directions_of(best.hypothesis)
-    for x in _lengths(problem, best, step, base, scale, directions):
-        with suppress(SimulationError):
-            found = _evaluate(problem, best.hypothesis, x, base, directions)
-            if found.cost(scale) < best.cost(scale):
-                return replace(found, deviation=solution.deviation)
+    step = solution.coefficients - best.coefficients
+    for shares in ((1.0,), SHORTER):
+        tried = _stepped(problem, best, [share * step for share in shares], base)
+        found = min(tried, key=lambda one: one.cost(scale), default=best)
+        if found.cost(scale) < best.cost(scale):
+            return replace(found, deviation=solution.deviation)
     return best
 
 
-def _lengths(
-    problem: Problem, best: Fitted, step: Floats, base: Point, scale: float, directions: Sequence[Direction]
-) -> Iterator[Floats]:
-    """Where the whole step leads, then the best of the shorter ones, which are looked at without derivatives first."""
-    yield best.coefficients + step
-    nearer = [best.coefficients + share * step for share in SHORTER]
-    missed = misfits(problem, best.hypothesis, nearer, base)
-    costs = [misfit + scale * _penalty(x, directions) for misfit, x in zip(missed, nearer, strict=True)]
-    if min(costs) < best.cost(scale):
-        yield nearer[int(np.argmin(costs))]
+def _stepped(problem: Problem, best: Fitted, steps: Sequence[Floats], base: Point) -> list[Fitted]:
+    """Those points some steps away that can be simulated, with derivatives carried along the step."""
+    found, y = [], problem.whitened(best.predictions)
+    widths = np.array([one.prior for one in directions_of(best.hypothesis)])
+    reached = [best.coefficients + step for step in steps]
+    at = problem.attempts(*(point_of(best.hypothesis, list(x), base) for x in reached))
+    for x, step, predictions in zip(reached, steps, at, strict=True):
+        if predictions is not None:
+            along = step / widths**2
+            missed = problem.whitened(predictions) - y - best.by @ step
+            by = best.by + np.outer(missed, along / float(along @ step))
+            found.append(_fitted(problem, best.hypothesis, x, base, predictions, by))
+    return found
