@@ -22,6 +22,7 @@ class Course:
     ends: Floats
     thermal: Floats  # [k] strain of the rope by temperature
     density: Mapping[float, float] = field(default_factory=dict)  # factor of mass per length from each share of the rope on
+    encoder: float = 1.0  # what the encoder reads over the true height
 
 
 def course(p: Tower, time: Floats, motion: Floats) -> Course:
