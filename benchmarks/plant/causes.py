@@ -65,7 +65,7 @@ EVERY = (*LATERAL, "sheave_dx", "sheave_w")
 CAUSES: dict[str, Cause] = {
     "nothing": Cause("nothing"),
     # in the library
-    "air_drag": tower("known", {"drag_coefficient": Draw(1.0, 10.0)}, drag_coefficient="drag"),
+    "air_drag": tower("known", {"drag_coefficient": Draw(30.0, 600.0)}, drag_coefficient="drag"),
     "shaft_airflow": tower(
         "known", {"crossflow_ratio": Draw(0.1, 1.0, signed=True)}, {"drag_coefficient": Draw(1.0, 1.2)},
         crossflow_ratio="crossflow", drag_coefficient="drag",
