@@ -26,6 +26,7 @@ def main() -> None:
     options.add_argument("--level", type=float)
     options.add_argument("--size", type=float)
     options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--before", type=float, default=0.0, help="seconds that all goes on before the record begins")
     options.add_argument("--random", metavar="FIRST:LAST")
     options.add_argument("--jobs", type=int, default=1)
     options.add_argument("--list", action="store_true")
@@ -39,7 +40,7 @@ def main() -> None:
             for line in executor.map(made, [random_plan(seed) for seed in seeds], [chosen.out / f"{seed:04d}" for seed in seeds]):
                 print(line, flush=True)
     else:
-        plan = drawn(chosen.seed, tuple(chosen.cause or ["nothing"]), chosen.level)
+        plan = replace(drawn(chosen.seed, tuple(chosen.cause or ["nothing"]), chosen.level), before=chosen.before)
         print(made(plan if chosen.size is None else sized(plan, chosen.size), chosen.out))
 
 

@@ -7,8 +7,8 @@ A FOLDER is a campaign, or holds campaigns. The command runs as a user would run
 copied without it. Campaigns that the output already holds are not run again.
 
 "first": the verdict is the cause, or one of two. "group": or the two are said to be indistinguishable. Right verdicts are, where
-nothing is hidden, adequate; for causes outside the library, unknown; for faults of data, nothing physical (a refusal with a reason
-counts) and, for a wrong sign or unit, the channel named.
+nothing is hidden, adequate; for causes outside the library, unknown; for faults of data, nothing physical (a refusal with a
+reason counts) and, for a wrong sign or unit, the channel named.
 """
 
 import argparse
@@ -57,7 +57,9 @@ def read(path: Path) -> list[Json]:
 def campaigns(folders: Iterable[Path]) -> list[Path]:
     """The campaigns among folders and right below them."""
     return [
-        truth.parent.resolve() for folder in folders for truth in sorted([*folder.glob("truth.json"), *folder.glob("*/truth.json")])
+        truth.parent.resolve()
+        for folder in folders
+        for truth in sorted([*folder.glob("truth.json"), *folder.glob("*/truth.json")])
     ]
 
 

@@ -1,7 +1,7 @@
 """Scores of many diagnoses as tables: per cause and size, the totals that count, and how honest probabilities are."""
 
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
@@ -14,7 +14,13 @@ def table(rows: Sequence[Json]) -> str:
     """All tables, in Markdown."""
     if not rows:
         return "no scores yet"
-    return "\n\n".join(("\n".join(part(rows)) for part in (by_cause, totals, honesty)))
+    return "\n\n".join("\n".join(part(rows)) for part in (by_cause, totals, honesty))
+
+
+COLUMNS = (
+    "kind", "hidden", "size", "times noise", "campaigns", "first", "or group", "wrongly called", "probability",
+    "held out: before, refitted, after", "left", "seconds",
+)  # fmt: skip
 
 
 def by_cause(rows: Sequence[Json]) -> list[str]:
@@ -22,42 +28,44 @@ def by_cause(rows: Sequence[Json]) -> list[str]:
     groups: dict[tuple[str, str, int], list[Json]] = defaultdict(list)
     for row in rows:
         groups[row["kind"], "two at once" if row["kind"] == "pair" else next(iter(row["causes"])), third(row)].append(row)
-    found = [
-        "| kind | hidden | size | times noise | campaigns | first | or group | wrongly called | probability "
-        "| held out: before, refitted, after | left | seconds |",
-        "|---|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
+    lines = ["| " + " | ".join(COLUMNS) + " |", "|" + "---|" * len(COLUMNS)]
     for (kind, cause, size), among in sorted(groups.items()):
-        called = sorted({row["verdict"] or row["verdict_kind"] for row in among if not row["group"]})
-        found.append(
-            f"| {kind} | {cause} | {'' if size < 0 else SIZES[size]} | {middle(peak(row) for row in among)} | {len(among)} "
-            f"| {count(among, 'first')} | {count(among, 'group')} | {', '.join(called)} | {middle_of(among, 'probability')} "
-            f"| {middle_of(among, 'validate_before')}, {middle_of(among, 'validate_refitted')}, {middle_of(among, 'validate_after')} "
-            f"| {middle_of(among, 'left')} | {middle_of(among, 'seconds')} |"
-        )
-    return found
+        lines.append("| " + " | ".join([kind, cause, "" if size < 0 else SIZES[size], *cells(among)]) + " |")
+    return lines
+
+
+def cells(among: Sequence[Json]) -> list[str]:
+    """What a group of scores says, from the shift over noise on."""
+    called = sorted({row["verdict"] or row["verdict_kind"] for row in among if not row["group"]})
+    held = ", ".join(middle_of(among, f"validate_{key}") for key in ("before", "refitted", "after"))
+    return [
+        middle(peak(row) for row in among), str(len(among)), str(count(among, "first")), str(count(among, "group")),
+        ", ".join(called), middle_of(among, "probability"), held, middle_of(among, "left"), middle_of(among, "seconds"),
+    ]  # fmt: skip
 
 
 def totals(rows: Sequence[Json]) -> list[str]:
     """What the diagnosis is judged by."""
-
-    def of(kinds: tuple[str, ...], more: Callable[[Json], bool] = lambda row: True) -> list[Json]:
-        return [row for row in rows if row["kind"] in kinds and more(row)]
-
-    sound, known, strange = of(("nothing",)), of(("known", "instrument"), visible), of(("outside",), visible)
-    return [
-        "| judged by | campaigns | share |",
-        "|---|---|---|",
-        f"| first, one cause of the table that shifts a channel by over 3 times its noise | {len(known)} | {share(known, 'first')} |",
-        f"| or group | {len(known)} | {share(known, 'group')} |",
-        f"| first or group, two causes | {len(of(('pair',)))} | {share(of(('pair',)), 'group')} |",
-        f"| false alarm, nothing hidden | {len(sound)} | {share(sound, 'alarm')} |",
-        f"| none of the known, recalled where a channel shifts by over 3 times its noise | {len(strange)} | {share(strange, 'first')} |",
-        f"| or called an effect of like nature | {len(strange)} | {share(strange, 'near_hit')} |",
-        f"| faults of data survived or told | {len(of(('data',)))} | {share(of(('data',)), 'group')} |",
-        f"| commands that failed | {len(rows)} | {share([row | {'failed': row['status'] not in (0, 2)} for row in rows], 'failed')} |",
-        f"| median seconds | {len(rows)} | {middle_of(rows, 'seconds')} |",
+    rows = [row | {"alarm": row["verdict_kind"] != "adequate", "failed": row["status"] not in (0, 2)} for row in rows]
+    seen = [row for row in rows if visible(row)]
+    one, strange = of(seen, "known", "instrument"), of(seen, "outside")
+    asked = [
+        ("first, one cause of the table that shifts a channel by over 3 times its noise", one, "first"),
+        ("or group", one, "group"),
+        ("first or group, two causes", of(rows, "pair"), "group"),
+        ("false alarm, nothing hidden", of(rows, "nothing"), "alarm"),
+        ("none of the known, recalled where a channel shifts by over 3 times its noise", strange, "first"),
+        ("called an effect of like nature instead", strange, "near_hit"),
+        ("faults of data survived or told", of(rows, "data"), "group"),
+        ("commands that failed", rows, "failed"),
     ]
+    lines = [f"| {text} | {len(among)} | {share(among, key)} |" for text, among, key in asked]
+    return ["| judged by | campaigns | share |", "|---|---|---|", *lines]
+
+
+def of(rows: Sequence[Json], *kinds: str) -> list[Json]:
+    """The rows of some kinds of cause."""
+    return [row for row in rows if row["kind"] in kinds]
 
 
 def honesty(rows: Sequence[Json]) -> list[str]:
@@ -92,8 +100,7 @@ def count(rows: Sequence[Json], key: str) -> int:
 
 
 def share(rows: Sequence[Json], key: str) -> str:
-    """The share of rows that have it; a false alarm is any verdict but adequate."""
-    rows = [row | {"alarm": row["verdict_kind"] != "adequate"} for row in rows]
+    """The share of rows that have it."""
     return f"{100.0 * count(rows, key) / len(rows):.0f} % ({count(rows, key)})" if rows else "-"
 
 

@@ -5,7 +5,7 @@ from .compiled import kernel
 
 @kernel
 def factor(A, N):
-    """Overwrite the band A [N + 5, 11] by its factors; the reciprocal pivots replace the diagonal. Rows from N on are identity."""
+    """Overwrite the band A [N + 5, 11] by its factors, with reciprocal pivots on the diagonal; rows from N on are identity."""
     for k in range(N):
         pivot = 1.0 / A[k, 5]
         A[k, 5] = pivot

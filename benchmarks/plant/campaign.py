@@ -9,7 +9,7 @@ import numpy as np
 
 from . import faults, texts
 from .causes import CAUSES
-from .ride import course, ride
+from .ride import EVERY, STEP, course, ride
 from .tower import Floats, Tower
 from .trip import trip
 
@@ -36,6 +36,7 @@ class Plan:
     column: str | None = None
     seed: int = 0
     level: float | None = None
+    before: float = 0.0  # s that all goes on before the record begins: a building sways not only from then on
     runs: tuple[str, ...] = field(default=tuple(RUNS))
 
     @property
@@ -73,13 +74,15 @@ def planted(plan: Plan, name: str, causes: Mapping[str, Mapping[str, float]]) ->
     p = p._replace(sheave_mass=share * p.sheave_mass, inertia=share * p.inertia)
     for cause, values in causes.items():
         p = p._replace(**{to: values[which] for which, to in CAUSES[cause].fields.items()})
-    given = course(p, *trip(start, stop, 0.004))
+    given = course(p, *trip(start, stop, STEP, plan.before))
     rng = np.random.default_rng([plan.seed, 2, list(RUNS).index(name)])
     for cause, values in causes.items():
         act = CAUSES[cause].course
         given = act(p, given, values, rng) if act else given
     true = ride(p, given)
-    return true, -given.encoder * given.ends[::2, 0, 0]
+    recorded = true["time"] >= 0.0
+    car = -given.encoder * given.ends[::EVERY, 0, 0]
+    return {name: values[recorded] for name, values in true.items()}, car[recorded]
 
 
 def measured(plan: Plan, true: Mapping[str, Floats], car: Floats, causes: Mapping[str, Mapping[str, float]]) -> faults.Rows:
@@ -114,18 +117,23 @@ def write(plan: Plan, folder: Path) -> None:
     """Drive all runs and write the campaign and its truth."""
     folder.mkdir(parents=True, exist_ok=True)
     shift: dict[str, float] = {}
+    lightest = min(plan.runs, key=lambda name: RUNS[name][2])  # where causes show most
     for k, name in enumerate(plan.runs):
         rows = measured(plan, *planted(plan, name, plan.causes), plan.causes)
-        if k == 0 and plan.kind != "nothing":
+        if name == lightest and plan.kind != "nothing":
             shift = shifted(rows, measured(plan, *planted(plan, name, {}), {}))
         texts.table(folder / f"{name}.csv", noisy(plan, rows, np.random.default_rng([plan.seed, 3, k])))
-    stated = plan.causes.get("wrong_noise", {}).get("stated_over_true", 1.0)
-    texts.describe(folder, f"50 m tower, {plan.seed}", {name: RUNS[name][2] for name in plan.runs}, stated)
+    texts.describe(folder, f"50 m tower, {plan.seed}", {name: RUNS[name][2] for name in plan.runs}, stated_noise(plan))
     truth = {
         "kind": plan.kind, "causes": plan.causes, "column": plan.column, "level": plan.level, "seed": plan.seed,
-        "plant": plan.plant, "near": sorted({near for name in plan.causes for near in CAUSES[name].near}), "shift": shift,
+        "before": plan.before, "plant": plan.plant, "near": sorted({near for name in plan.causes for near in CAUSES[name].near}), "shift": shift,
     }  # fmt: skip
     (folder / "truth.json").write_text(json.dumps(truth, indent=1) + "\n", encoding="utf-8")
+
+
+def stated_noise(plan: Plan) -> float:
+    """The noise that campaign.toml states over the true one."""
+    return plan.causes.get("wrong_noise", {}).get("stated_over_true", 1.0)
 
 
 def shifted(rows: faults.Rows, plain: faults.Rows) -> dict[str, float]:

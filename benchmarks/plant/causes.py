@@ -65,24 +65,25 @@ EVERY = (*LATERAL, "sheave_dx", "sheave_w")
 CAUSES: dict[str, Cause] = {
     "nothing": Cause("nothing"),
     # in the library
-    "air_drag": tower("known", {"drag_coefficient": Draw(30.0, 600.0)}, drag_coefficient="drag"),
+    "air_drag": tower("known", {"drag_coefficient": Draw(100.0, 3000.0)}, drag_coefficient="drag"),
     "shaft_airflow": tower(
-        "known", {"crossflow_ratio": Draw(0.1, 1.0, signed=True)}, {"drag_coefficient": Draw(1.0, 1.2)},
+        "known", {"crossflow_ratio": Draw(0.05, 1.0, signed=True)}, {"drag_coefficient": Draw(1.0, 1.2)},
         crossflow_ratio="crossflow", drag_coefficient="drag",
     ),
     "bending_hysteresis": tower(
         "known", {"friction_moment": Draw(0.2, 4.0)}, {"yield_curvature": Draw(0.05, 1.0)},
         friction_moment="dahl_moment", yield_curvature="dahl_curvature",
     ),
-    "intrinsic_curvature": tower("known", {"curvature": Draw(0.03, 0.6)}, curvature="set_curvature"),
+    "intrinsic_curvature": tower("known", {"curvature": Draw(0.02, 0.6)}, curvature="set_curvature"),
     "sheave_eccentricity": tower(
-        "known", {"eccentricity": Draw(1e-4, 5e-3)}, {"phase": PHASE}, phase="eccentric_phase",
+        "known", {"eccentricity": Draw(3e-5, 5e-3)}, {"phase": PHASE, "crept": Draw(0.0, 0.5, even=True)},
+        phase="eccentric_phase",
     ),
     "bearing_friction": tower("known", {"coulomb_torque": Draw(1.0, 30.0)}, coulomb_torque="bearing_coulomb"),
-    "guide_friction": tower("known", {"coulomb_force": Draw(3.0, 80.0)}, coulomb_force="guide_coulomb"),
-    "sheave_damper": tower("known", {"damping": Draw(2e3, 3e5)}, damping="guide_damping"),
+    "guide_friction": tower("known", {"coulomb_force": Draw(1.0, 80.0)}, coulomb_force="guide_coulomb"),
+    "sheave_damper": tower("known", {"damping": Draw(1e3, 3e5)}, damping="guide_damping"),
     "building_sway": Cause(
-        "known", {"amplitude": Draw(5e-4, 3e-2)}, {"frequency": Draw(0.1, 0.9), "phase": PHASE}, course=ends.building_sway,
+        "known", {"amplitude": Draw(2e-4, 3e-2)}, {"frequency": Draw(0.1, 0.9), "phase": PHASE}, course=ends.building_sway,
     ),
     "attachment_offset": Cause(
         "known", {"car": Draw(1e-3, 3e-2, signed=True), "counterweight": Draw(1e-3, 3e-2, signed=True)},
@@ -111,8 +112,8 @@ CAUSES: dict[str, Cause] = {
         {"brush_height": Draw(1.0, 9.0), "brush_side": Draw(1.0, 1.0, signed=True), "brush_damping": Draw(1.0, 20.0)},
     ),
     "rubbing_wall": tower(
-        "outside", {"wall_distance": Draw(5e-3, 5e-2)},
-        {"wall_height": Draw(1.0, 9.0), "wall_side": Draw(1.0, 1.0, signed=True), "wall_stiffness": Draw(1e5, 4e5),
+        "outside", {"wall_distance": Draw(3e-3, 4e-2)},
+        {"wall_height": Draw(3.0, 9.5), "wall_side": Draw(1.0, 1.0, signed=True), "wall_stiffness": Draw(1e5, 4e5),
          "wall_friction": Draw(0.1, 0.4)},
     ),
     "sticky_guide": tower(
@@ -122,7 +123,9 @@ CAUSES: dict[str, Cause] = {
     "jammed_seal": tower("outside", {"seal_stiffness": Draw(5e-3, 0.3)}),
     "sloped_guide": tower("outside", {"guide_slope": Draw(0.1, 1.5, signed=True)}),
     # the data
-    "sensor_drift": Cause("data", {"per_minute": Draw(5e-4, 1e-2, signed=True)}, channel=instruments.sensor_drift, columns=LATERAL),
+    "sensor_drift": Cause(
+        "data", {"per_minute": Draw(5e-4, 1e-2, signed=True)}, channel=instruments.sensor_drift, columns=LATERAL
+    ),
     "wrong_sign": Cause("data", channel=instruments.wrong_sign, columns=EVERY),
     "wrong_unit": Cause("data", {"factor": Draw(0.1, 0.1)}, channel=instruments.wrong_unit, columns=EVERY[:4]),
     "uneven_sampling": Cause("data", {"jitter": Draw(0.1, 0.45)}),

@@ -25,10 +25,10 @@ def building_sway(p: Tower, given: Course, by: Values, rng: np.random.Generator)
 def gusts(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
     """Irregular sway: many rates between 0.08 and 1.2 Hz, others in each run; it sets in within two seconds."""
     rates, phases = 2.0 * np.pi * rng.uniform(0.08, 1.2, 24), rng.uniform(0.0, 2.0 * np.pi, 24)
-    angles = np.outer(given.time, rates) + phases
+    angles = np.outer(given.time - given.time[0], rates) + phases
     size = by["size"] * np.sqrt(2.0 / 24)
     wave = size * np.stack([np.sin(angles).sum(1), (rates * np.cos(angles)).sum(1), -(rates**2 * np.sin(angles)).sum(1)], axis=-1)
-    return _swayed(p, given, _faded(given.time, wave))
+    return _swayed(p, given, _faded(given.time - given.time[0], wave))
 
 
 def attachment_offset(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
@@ -64,7 +64,11 @@ def counterweight_bounce(p: Tower, given: Course, by: Values, rng: np.random.Gen
 
 def encoder_scale(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
     """The encoder's wheel is worn: it reads more or less than the car's true height."""
-    return replace(given, encoder=1.0 + by["excess"])
+    ends = given.ends.copy()
+    ends[:, CAR_X] /= 1.0 + by["excess"]
+    ends[:, CW_X] = -ends[:, CAR_X]
+    ends[:, CW_X, 0] -= p.height
+    return replace(given, ends=ends, encoder=1.0 + by["excess"])
 
 
 def splice(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
@@ -74,7 +78,7 @@ def splice(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Cou
 
 def warming(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
     """The rope lengthens or shortens with temperature, by the same strain every minute."""
-    return replace(given, thermal=by["strain"] * given.time / 60.0)
+    return replace(given, thermal=by["strain"] * (given.time - given.time[0]) / 60.0)
 
 
 def _swayed(p: Tower, given: Course, wave: Floats) -> Course:

@@ -40,5 +40,6 @@ def outliers(rows: Rows, by: Mapping[str, float], rng: np.random.Generator, nois
     found = dict(rows)
     for name, size in noise.items():
         hit = rng.random(len(rows[name])) < by["share"]
-        found[name] = rows[name] + hit * rng.choice((-1.0, 1.0), len(hit)) * by["times_noise"] * size * rng.uniform(0.2, 1.0, len(hit))
+        far = rng.choice((-1.0, 1.0), len(hit)) * rng.uniform(0.2, 1.0, len(hit)) * by["times_noise"] * size
+        found[name] = rows[name] + hit * far
     return found

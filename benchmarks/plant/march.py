@@ -38,12 +38,13 @@ def balance(n, p, mass, W, a, a1):
 
 @kernel
 def step(p, n, h, W, mass, kappa0, z0, thermal, wind, q, v, a, q1, v1, a1, qf, vf):
-    """Newton's iteration from the predicted state; the tangent is renewed when corrections shrink slowly. Returns iterations, or 0."""
+    """Newton's iteration from the predicted state, with a new tangent where corrections shrink slowly; their count, 0 in vain."""
     N = 2 * n
     ck, cc = 1.0 - ALPHA_F, (1.0 - ALPHA_F) * GAMMA / (BETA * h)
     cm = (1.0 - ALPHA_M) / (BETA * h * h)
     before, fresh = 1e9, True
-    for count in range(1, 41):
+    for count in range(1, 81):
+        share = 1.0 if count <= 10 else 0.4  # an iteration that goes round in circles ends when it takes smaller steps
         for k in range(N + 2):
             qf[k] = (1.0 - ALPHA_F) * q1[k] + ALPHA_F * q[k]
             vf[k] = (1.0 - ALPHA_F) * v1[k] + ALPHA_F * v[k]
@@ -51,9 +52,10 @@ def step(p, n, h, W, mass, kappa0, z0, thermal, wind, q, v, a, q1, v1, a1, qf, v
         balance(n, p, mass, W, a, a1)
         largest = correction(n, W, fresh)
         for k in range(N + 2):
-            q1[k] += W.x[5 + k]
-            v1[k] += W.x[5 + k] * GAMMA / (BETA * h)
-            a1[k] += W.x[5 + k] / (BETA * h * h)
+            change = share * W.x[5 + k]
+            q1[k] += change
+            v1[k] += change * GAMMA / (BETA * h)
+            a1[k] += change / (BETA * h * h)
         if largest < CLOSE:
             return count
         fresh = largest > 0.1 * before or count > 6
@@ -92,8 +94,8 @@ def seen(n, q, radius, side, height):
 def march(p, n, h, W, mass, ends, thermal, kappa0, z0, q, v, a, work3, sensors, every, out):
     """Move the ends along ends [steps + 1, 4, 3] and fill out [steps / every + 1, 6 + sensors].
 
-    Columns: axle, angle, angular velocity, car's and counterweight's end tension, sheave force, then sensors [count, 2] of side and
-    height. thermal [steps + 1] is the rope's strain by temperature. Returns the mean number of iterations, or less than 0 at failure.
+    Columns: axle, angle, angular velocity, car's and counterweight's end tension, sheave force, then sensors [count, 2] of side
+    and height. thermal [steps + 1] is the rope's strain by temperature. Returns the mean number of iterations, or less than 0.
     """
     steps, total = len(ends) - 1, 0
     q1, v1, a1, qf, vf = work3[0], work3[1], work3[2], work3[3], work3[4]

@@ -16,7 +16,7 @@ SENSORS = {"cw_low": (1.0, 0.5), "cw_mid": (1.0, 10.0), "car_low": (-1.0, -0.8)}
 
 @dataclass(frozen=True)
 class Course:
-    """What is done to the tower: time [k], the ends [k, 4, 3] (x and y of car and counterweight with two derivatives), and more."""
+    """What is done to the tower: time [k], the ends [k, 4, 3] (x and y of car and counterweight, two derivatives), and more."""
 
     time: Floats
     ends: Floats
@@ -55,7 +55,7 @@ def ride(p: Tower, given: Course, sensors: Mapping[str, tuple[float, float]] = S
     names = ("axle", "turned", "omega", "car_tension", "counterweight_tension", "force", *sensors)
     channels = dict(zip(names, out.T.copy(), strict=True))
     channels["axle"] = -channels["axle"]
-    return {"time": given.time[::EVERY], "iterations": np.array([done])} | channels
+    return {"time": given.time[::EVERY]} | channels
 
 
 def bent(p: Tower, n: int, q: Floats) -> Floats:

@@ -3,6 +3,7 @@
 import math
 
 from .compiled import kernel
+from .sheave import slope
 from .tower import GRAVITY
 
 
@@ -47,6 +48,9 @@ def touched(p, n, q, v, f, ck, cc, tangent, A):
         pressed = p.wall_distance - out
         if side == p.wall_side and abs(x + p.wall_height) < 0.5 and pressed > 0.0:
             k = p.wall_stiffness * p.element
+            rub = p.wall_friction * k * pressed * slope(v[2 * i], 0.02)
             f[2 * i + 1] += side * k * pressed
-            f[2 * i] -= p.wall_friction * k * pressed * math.tanh(v[2 * i] / 0.02)
-            A[2 * i + 1, 5] += ck * k if tangent else 0.0
+            f[2 * i] -= rub * v[2 * i]
+            if tangent:
+                A[2 * i, 5] += cc * rub
+                A[2 * i + 1, 5] += ck * k

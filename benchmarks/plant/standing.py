@@ -11,7 +11,7 @@ from .tower import GRAVITY, Floats, Tower
 
 @entry
 def relax(p, n, W, mass, kappa0, z0, q, v):
-    """Newton's iteration with a mass that vanishes as the imbalance falls; the sheave does not turn. Returns the last correction."""
+    """Newton's iteration with a mass that vanishes with the imbalance; the sheave does not turn. Returns the last correction."""
     N = 2 * n
     first = size = 0.0
     for _ in range(400):

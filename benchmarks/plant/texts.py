@@ -35,7 +35,9 @@ friction_coefficient = 0.3
 slip_velocity = 0.02
 """
 SENSOR = '\n[[sensors]]\nname = "{name}"\nside = "{side}"\nheight = {height}\n'
-LATERAL = '\n[[channels]]\ncolumn = "{name}"\nquantity = "lateral_displacement"\nsensor = "{name}"\nunit = "mm"\nreference = "rest"\n'
+LATERAL = (
+    '\n[[channels]]\ncolumn = "{name}"\nquantity = "lateral_displacement"\nsensor = "{name}"\nunit = "mm"\nreference = "rest"\n'
+)
 AXLE = '\n[[channels]]\ncolumn = "sheave_dx"\nquantity = "sheave_displacement"\nunit = "mm"\nreference = "rest"\n'
 TURNING = '\n[[channels]]\ncolumn = "sheave_w"\nquantity = "sheave_angular_velocity"\nunit = "rad/s"\nreference = "absolute"\n'
 RUN = '\n[[runs]]\nfile = "{name}.csv"\nrole = "{role}"\nset = {{ "sheave.mass" = {mass}, "sheave.inertia" = {inertia:.3f} }}\n'

@@ -40,6 +40,7 @@ class Tower(NamedTuple):
     # the sheave's
     eccentricity: float = 0.0
     eccentric_phase: float = 0.0
+    crept: float = 0.0  # rad, how far a sheave of nominal mass has crept towards its stable place while the car stood
     bearing_coulomb: float = 0.0
     bearing_viscous: float = 0.0
     guide_coulomb: float = 0.0
@@ -67,6 +68,7 @@ class Tower(NamedTuple):
         return 2.0 * self.pit + self.height + math.pi * self.radius
 
     def laid_out(self) -> tuple["Tower", int]:
-        """The tower with an element that divides the rope's length, and the number of nodes."""
+        """The tower with an element that divides the rope's length and a sheave that has crept, and the number of nodes."""
         count = round(self.rope_length / self.element)
-        return self._replace(element=self.rope_length / count), count + 1
+        phase = self.eccentric_phase + self.crept * self.sheave_mass / 120.0 * math.sin(self.eccentric_phase)
+        return self._replace(element=self.rope_length / count, eccentric_phase=phase), count + 1

@@ -10,16 +10,17 @@ SPEED, ACCELERATION, JERK = 2.5, 0.8, 0.8
 REST, AFTER = 3.0, 8.0
 
 
-def trip(start: float, stop: float, step: float) -> tuple[Floats, Floats]:
-    """Times [k] and the car's position, velocity and acceleration [k, 3], at rest before and after."""
+def trip(start: float, stop: float, step: float, before: float = 0.0) -> tuple[Floats, Floats]:
+    """Times [k] from -before on, and the car's position, velocity and acceleration [k, 3], at rest before and after the trip."""
     ramp, hold = ACCELERATION / JERK, SPEED / ACCELERATION - ACCELERATION / JERK
     cruise = abs(stop - start) / SPEED - SPEED / ACCELERATION - ACCELERATION / JERK
     if cruise < 0.0:
         raise ValueError(f"a trip of {abs(stop - start)} m does not reach {SPEED} m/s")
-    durations = np.array([REST, ramp, hold, ramp, cruise, ramp, hold, ramp, AFTER])
+    durations = np.array([REST + before, ramp, hold, ramp, cruise, ramp, hold, ramp, AFTER])
     jerks = np.copysign(JERK, stop - start) * np.array([0, 1, 0, -1, 0, -1, 0, 1, 0])
-    knots = np.concatenate([[0.0], np.cumsum(durations)])
-    time = np.arange(round(knots[-1] / step / 2) * 2 + 1) * step
+    knots = np.concatenate([[0.0], np.cumsum(durations)]) - before
+    first = -2 * round(before / step / 2)
+    time = np.arange(first, round(knots[-1] / step / 2) * 2 + 1) * step
     motion = np.zeros((len(time), 3))
     state = np.array([start, 0.0, 0.0])
     for (begin, end), jerk in zip(pairwise(knots), jerks, strict=True):
