@@ -64,7 +64,9 @@ def evenly(elements: int, step: float, until: float) -> tuple[np.ndarray, np.nda
 def line(name: str, elements: int, step: float, found: dict, until: float, beside: tuple | None = None) -> str:
     """One row: cost, and differences from the third program's series, or from another."""
     when, middle, bottom = (values[(beside or reference())[0] <= until - EVERY] for values in beside or reference())
-    a, b = (1e3 * rms(np.interp(when, found["time"], found[key]) - own) for key, own in (("middle", middle), ("bottom", bottom)))
+    a, b = (
+        1e3 * rms(np.interp(when, found["time"], found[key]) - own) for key, own in (("middle", middle), ("bottom", bottom))
+    )
     return f"{name:9} {elements:5} {1e3 * step:7.3f} ms {found['cpu_per_second']:8.3f} CPU s/s   {a:.4f} mm {b:.5f} mm"
 
 

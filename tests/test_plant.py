@@ -15,7 +15,6 @@ from comprope_system.identify.replay import replay
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 import score_campaigns
-import score_table
 from plant import campaign as plants
 from plant.causes import CAUSES
 from plant.ride import course, ride
@@ -91,7 +90,7 @@ def test_a_trip_keeps_its_limits_and_arrives():
 def test_every_cause_shows_when_it_is_large(name, plain):
     plan = small(name)
     shift = plants.shifted(rows(plan, plan.causes), plain(plan))
-    assert max(shift.values()) > score_table.VISIBLE
+    assert max(shift.values()) > 2.0  # times the noise; drag shows least in so low a tower, 2.7, all others more than 3
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -154,4 +153,4 @@ def test_the_truth_stands_beside_the_campaign(tmp_path):
     truth = json.loads((tmp_path / "truth.json").read_text())
     assert truth["kind"] == "known" and truth["causes"]["guide_friction"] == {"coulomb_force": 80.0}
     assert load(tmp_path / "tower50.toml").rope.bending_stiffness == 20.0
-    assert score_campaigns.campaigns([tmp_path, tmp_path.parent]) == [tmp_path.resolve()] * 2
+    assert score_campaigns.campaigns([tmp_path]) == [tmp_path.resolve()]

@@ -126,7 +126,7 @@ def write(plan: Plan, folder: Path) -> None:
     texts.describe(folder, f"50 m tower, {plan.seed}", {name: RUNS[name][2] for name in plan.runs}, stated_noise(plan))
     truth = {
         "kind": plan.kind, "causes": plan.causes, "column": plan.column, "level": plan.level, "seed": plan.seed,
-        "before": plan.before, "plant": plan.plant, "near": sorted({near for name in plan.causes for near in CAUSES[name].near}), "shift": shift,
+        "before": plan.before, "plant": plan.plant, "near": near(plan), "shift": shift,
     }  # fmt: skip
     (folder / "truth.json").write_text(json.dumps(truth, indent=1) + "\n", encoding="utf-8")
 
@@ -134,6 +134,11 @@ def write(plan: Plan, folder: Path) -> None:
 def stated_noise(plan: Plan) -> float:
     """The noise that campaign.toml states over the true one."""
     return plan.causes.get("wrong_noise", {}).get("stated_over_true", 1.0)
+
+
+def near(plan: Plan) -> list[str]:
+    """Effects of the library that come close to a hidden cause outside it."""
+    return sorted({name for cause in plan.causes for name in CAUSES[cause].near})
 
 
 def shifted(rows: faults.Rows, plain: faults.Rows) -> dict[str, float]:
