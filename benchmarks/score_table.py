@@ -1,0 +1,115 @@
+"""Scores of many diagnoses as tables: per cause and size, the totals that count, and how honest probabilities are."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from statistics import median
+from typing import Any
+
+Json = dict[str, Any]
+VISIBLE = 3.0  # times the noise that a cause must shift some channel by
+SIZES = ("barely", "middle", "large")
+
+
+def table(rows: Sequence[Json]) -> str:
+    """All tables, in Markdown."""
+    if not rows:
+        return "no scores yet"
+    return "\n\n".join("\n".join(part(rows)) for part in (by_cause, totals, honesty))
+
+
+COLUMNS = (
+    "kind", "hidden", "size", "times noise", "campaigns", "first", "or group", "wrongly called", "probability",
+    "held out: before, refitted, after", "left", "seconds",
+)  # fmt: skip
+
+
+def by_cause(rows: Sequence[Json]) -> list[str]:
+    """One line per cause and third of its range."""
+    groups: dict[tuple[str, str, int], list[Json]] = defaultdict(list)
+    for row in rows:
+        groups[row["kind"], "two at once" if row["kind"] == "pair" else next(iter(row["causes"])), third(row)].append(row)
+    lines = ["| " + " | ".join(COLUMNS) + " |", "|" + "---|" * len(COLUMNS)]
+    for (kind, cause, size), among in sorted(groups.items()):
+        lines.append("| " + " | ".join([kind, cause, "" if size < 0 else SIZES[size], *cells(among)]) + " |")
+    return lines
+
+
+def cells(among: Sequence[Json]) -> list[str]:
+    """What a group of scores says, from the shift over noise on."""
+    called = sorted({row["verdict"] or row["verdict_kind"] for row in among if not row["group"]})
+    held = ", ".join(middle_of(among, f"validate_{key}") for key in ("before", "refitted", "after"))
+    return [
+        middle(peak(row) for row in among), str(len(among)), str(count(among, "first")), str(count(among, "group")),
+        ", ".join(called), middle_of(among, "probability"), held, middle_of(among, "left"), middle_of(among, "seconds"),
+    ]  # fmt: skip
+
+
+def totals(rows: Sequence[Json]) -> list[str]:
+    """What the diagnosis is judged by."""
+    rows = [row | {"alarm": row["verdict_kind"] != "adequate", "failed": row["status"] not in (0, 2)} for row in rows]
+    seen = [row for row in rows if visible(row)]
+    one, strange = of(seen, "known", "instrument"), of(seen, "outside")
+    asked = [
+        ("first, one cause of the table that shifts a channel by over 3 times its noise", one, "first"),
+        ("or group", one, "group"),
+        ("first or group, two causes", of(rows, "pair"), "group"),
+        ("false alarm, nothing hidden", of(rows, "nothing"), "alarm"),
+        ("none of the known, recalled where a channel shifts by over 3 times its noise", strange, "first"),
+        ("called an effect of like nature instead", strange, "near_hit"),
+        ("faults of data survived or told", of(rows, "data"), "group"),
+        ("commands that failed", rows, "failed"),
+    ]
+    lines = [f"| {text} | {len(among)} | {share(among, key)} |" for text, among, key in asked]
+    return ["| judged by | campaigns | share |", "|---|---|---|", *lines]
+
+
+def of(rows: Sequence[Json], *kinds: str) -> list[Json]:
+    """The rows of some kinds of cause."""
+    return [row for row in rows if row["kind"] in kinds]
+
+
+def honesty(rows: Sequence[Json]) -> list[str]:
+    """Stated probability of the verdict against how often it was right (first or group)."""
+    found = ["| stated probability | campaigns | mean stated | right |", "|---|---|---|---|"]
+    for low, high in ((0.0, 0.5), (0.5, 0.8), (0.8, 0.95), (0.95, 0.99), (0.99, 1.01)):
+        among = [row for row in rows if row["probability"] is not None and low <= row["probability"] < high]
+        if among:
+            mean = sum(row["probability"] for row in among) / len(among)
+            found.append(f"| {low} to {min(high, 1.0)} | {len(among)} | {mean:.3f} | {share(among, 'group')} |")
+    return found
+
+
+def third(row: Json) -> int:
+    """In which third of its range a size lies; -1 where there is none."""
+    return -1 if row["level"] is None or row["kind"] in ("nothing", "pair") else min(int(3.0 * row["level"]), 2)
+
+
+def peak(row: Json) -> float:
+    """The largest shift of any channel over its noise."""
+    return max(row["shift"].values(), default=0.0)
+
+
+def visible(row: Json) -> bool:
+    """Whether the cause shifts some channel enough to be asked for."""
+    return peak(row) > VISIBLE
+
+
+def count(rows: Sequence[Json], key: str) -> int:
+    """How many rows have it."""
+    return sum(bool(row[key]) for row in rows)
+
+
+def share(rows: Sequence[Json], key: str) -> str:
+    """The share of rows that have it."""
+    return f"{100.0 * count(rows, key) / len(rows):.0f} % ({count(rows, key)})" if rows else "-"
+
+
+def middle(values: Any) -> str:
+    """The median in three digits."""
+    known = [value for value in values if value is not None]
+    return f"{median(known):.3g}" if known else "-"
+
+
+def middle_of(rows: Sequence[Json], key: str) -> str:
+    """The median of one quantity."""
+    return middle(row[key] for row in rows)

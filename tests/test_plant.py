@@ -1,0 +1,156 @@
+"""The virtual tower behind the diagnosis's scores: it agrees with the library where nothing is hidden, and every cause shows."""
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comprope.rope.modelfile import load
+from comprope_system.identify.campaign import load_campaign
+from comprope_system.identify.replay import replay
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
+
+import score_campaigns
+from plant import campaign as plants
+from plant.causes import CAUSES
+from plant.ride import course, ride
+from plant.tower import Tower
+from plant.trip import trip
+
+SMALL = {"height": 15.0, "element": 0.04}  # a tower that rides in a third of a second
+PHYSICAL = [name for name, cause in CAUSES.items() if cause.kind in ("known", "outside", "instrument")]
+FILES = [name for name, cause in CAUSES.items() if cause.kind == "data"]
+
+
+@pytest.fixture(autouse=True)
+def short_trip(monkeypatch):
+    monkeypatch.setattr(plants, "RUNS", {"up_nominal": (0.0, 11.0, 1.0), "up_short": (1.0, 12.0, 0.75)})
+
+
+def rows(plan, causes):
+    return plants.measured(plan, *plants.planted(plan, "up_short", causes), causes)
+
+
+@pytest.fixture(scope="module")
+def plain():
+    cache = {}
+
+    def of(plan):
+        if not cache:
+            cache.update(rows(plan, {}))
+        return cache
+
+    return of
+
+
+def small(name):
+    return replace(plants.drawn(7, (name,), 1.0), plant=SMALL)
+
+
+def test_without_causes_it_agrees_with_the_library(tmp_path):
+    plan = replace(plants.drawn(1, ("nothing",)), plant={"element": 0.02}, runs=("up_nominal",))
+    plants.write(plan, tmp_path)
+    measured = load_campaign(tmp_path)
+    run = measured.runs[0]
+    true, _ = plants.planted(plan, "up_nominal", {})
+    found = replay(measured.model, run, measured.channels).values
+    for name in ("cw_low", "cw_mid", "car_low"):
+        apart = (found[name] - np.nanmean(found[name][:300])) - (true[name] - true[name][:300].mean())
+        # 0.02 to 0.03 mm at 1 cm; nodes of 2 cm make the sheave a polygon, which costs as much again, and the encoder's noise too
+        assert np.sqrt(np.nanmean(apart**2)) < 8e-5
+    assert np.abs(found["sheave_w"] - true["omega"]).max() < 0.01  # the encoder's noise, seen through the recovered trip
+
+
+def test_at_rest_it_carries_what_hangs_on_it():
+    p = Tower()
+    true = ride(p, course(p, np.zeros(3), np.array([[5.0, 0.0, 0.0]] * 3)))
+    weight = p.mass_per_length * 9.81
+    ends = true["car_tension"][0] + true["counterweight_tension"][0]
+    assert true["force"][0] == pytest.approx(p.sheave_mass * 9.81, rel=1e-6)
+    # Each end's tension acts at the middle of its last element, half an element's weight (0.06 N) below the end.
+    assert ends == pytest.approx(p.sheave_mass * 9.81 + weight * (p.rope_length - p.element), abs=0.05)
+    difference = true["counterweight_tension"][0] - true["car_tension"][0]
+    assert difference == pytest.approx(weight * (p.height - 2.0 * 5.0), rel=1e-3)  # stretch moves the axle by less than that
+
+
+def test_a_trip_keeps_its_limits_and_arrives():
+    time, motion = trip(38.0, 0.0, 0.004)
+    assert motion[0, 0] == 38.0 and motion[-1, 0] == pytest.approx(0.0, abs=1e-9)
+    assert np.abs(motion[:, 1]).max() == pytest.approx(2.5) and np.abs(motion[:, 2]).max() == pytest.approx(0.8)
+    assert np.gradient(motion[:, 0], time) == pytest.approx(motion[:, 1], abs=1e-5)  # second order in the step: j h^2 / 6 = 2e-6
+    with pytest.raises(ValueError, match="does not reach"):
+        trip(0.0, 5.0, 0.004)
+
+
+@pytest.mark.parametrize("name", PHYSICAL)
+def test_every_cause_shows_when_it_is_large(name, plain):
+    plan = small(name)
+    shift = plants.shifted(rows(plan, plan.causes), plain(plan))
+    assert max(shift.values()) > 2.0  # times the noise; drag shows least in so low a tower, 2.7, all others more than 3
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_fault_of_data_is_in_the_files(name, tmp_path, plain):
+    plan = small(name)
+
+    def written(causes):
+        given = replace(plan, causes=causes)
+        table = plants.noisy(given, plants.measured(given, *of_plain(), causes), np.random.default_rng(0))
+        return np.column_stack(list(table.values())), plants.stated_noise(given)
+
+    def of_plain():
+        clean = plain(plan)
+        true = {plants.SOURCE.get(key, key): clean[key] / plants.SCALE[key] for key in plants.NOISE}
+        return true | {"time": clean["time"]}, clean["car_position"]
+
+    (faulty, stated), (sound, truly) = written(plan.causes), written({"nothing": {}})
+    assert stated != truly or not np.array_equal(faulty, sound, equal_nan=True)
+
+
+def test_the_same_seed_gives_the_same_campaign():
+    assert plants.random_plan(5) == plants.random_plan(5) != plants.random_plan(6)
+    kinds = {plants.random_plan(seed).kind for seed in range(60)}
+    assert kinds == set(plants.KINDS)
+
+
+SAID = {"verdict": "a", "verdict_kind": "known_effect", "indistinguishable": [["a", "b"]], "ranking": []}
+
+
+@pytest.mark.parametrize(
+    ("kind", "causes", "said", "first", "group"),
+    [
+        ("known", {"a": {}}, SAID, True, True),
+        ("known", {"b": {}}, SAID, False, True),
+        ("known", {"c": {}}, SAID, False, False),
+        ("pair", {"a": {}, "c": {}}, SAID, True, True),
+        ("outside", {"d": {}}, SAID, False, False),
+        ("outside", {"d": {}}, {"verdict": None, "verdict_kind": "unknown_effect"}, True, True),
+        ("nothing", {"nothing": {}}, {"verdict": None, "verdict_kind": "adequate"}, True, True),
+        ("nothing", {"nothing": {}}, {}, False, False),
+    ],
+)
+def test_a_verdict_is_held_against_the_truth(kind, causes, said, first, group):
+    truth = {"kind": kind, "causes": causes}
+    right = score_campaigns.first(truth, said)
+    assert (right, right or score_campaigns.grouped(truth, said)) == (first, group)
+
+
+def test_a_wrong_sign_must_be_told():
+    truth = {"kind": "data", "causes": {"wrong_sign": {}}, "column": "cw_mid"}
+    sound = {"verdict": None, "verdict_kind": "adequate", "remarks": []}
+    assert not score_campaigns.told(truth, sound, "")
+    assert score_campaigns.told(truth, sound | {"remarks": ["cw_mid: it looks as if its sign were wrong"]}, "")
+    assert score_campaigns.told(truth, {}, "CAMPAIGN: cw_mid has the wrong sign")
+
+
+def test_the_truth_stands_beside_the_campaign(tmp_path):
+    plan = replace(small("guide_friction"), runs=("up_short",))
+    plants.write(plan, tmp_path)
+    truth = json.loads((tmp_path / "truth.json").read_text())
+    assert truth["kind"] == "known" and truth["causes"]["guide_friction"] == {"coulomb_force": 80.0}
+    assert load(tmp_path / "tower50.toml").rope.bending_stiffness == 20.0
+    assert score_campaigns.campaigns([tmp_path]) == [tmp_path.resolve()]
