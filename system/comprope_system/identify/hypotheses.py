@@ -139,7 +139,7 @@ def together(*effects: Hypothesis) -> Hypothesis:
     if len(parts) == 1:
         return parts[0]
     directions = tuple(direction for part in parts for direction in part.directions)
-    return Hypothesis(" + ".join(part.effect for part in parts), directions, parts=parts)
+    return Hypothesis(" + ".join(dict.fromkeys(part.effect for part in parts)), directions, parts=parts)
 
 
 def of_instruments(channels: Mapping[str, Channel]) -> list[Hypothesis]:
