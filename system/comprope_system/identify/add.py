@@ -12,14 +12,14 @@ from comprope.rope.effects import RopeModel
 
 from .campaign import Campaign
 from .compare import Comparison, compare
-from .fit import Fitted, refine
+from .fit import Fitted, evaluate, refine
 from .hypotheses import CLOCK, NUISANCES, Hypothesis, together
-from .linear import by_effect, linearised, point_of
+from .linear import by_effect, point_of
 from .plain import plain
-from .point import Point, Predictions, gathered, submit
+from .point import Point, gathered, submit
 from .present import alternatives, grouped, name_of, present, shape_of, short_names
 from .problem import Problem, pose
-from .screen import looks_at
+from .screen import looks_from
 from .spectrum import frequencies
 from .starts import best_start
 from .values import Value, effect_results, model_of, plant_results, set_by_runs, widening
@@ -30,15 +30,14 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Ground:
-    """What every fit to a campaign begins with: its weighed data, derivatives by the plant, and the plant refitted alone.
+    """What every fit to a campaign begins with: its weighed data, the model as it stands, and its plant refitted.
 
-    `by` (N, k) are derivatives by plant and effects that are in the model already; `fitted` has both refitted.
+    `begun` has derivatives by plant and effects that are in the model already; `fitted` has both refitted.
     """
 
     campaign: Campaign
     problem: Problem
-    nominal: Predictions
-    by: Floats
+    begun: Fitted
     fitted: Fitted
 
 
@@ -53,8 +52,8 @@ def prepare(campaign: Campaign, executor: Executor, say: Say = lambda _: None) -
     say("plant parameters")
     hypothesis, coefficients = present(campaign)
     start = np.concatenate([np.zeros(len(NUISANCES)), coefficients])
-    begun = linearised(problem, hypothesis, start, Point())
-    return Ground(campaign, problem, nominal, begun[1], refine(problem, hypothesis, start, Point(), begun=begun))
+    begun = evaluate(problem, hypothesis, start, Point())
+    return Ground(campaign, problem, begun, refine(problem, hypothesis, start, Point(), begun=begun))
 
 
 @dataclass(frozen=True)
@@ -117,19 +116,14 @@ def add(campaign: Campaign, effect: str, executor: Executor, say: Say = lambda _
 
 
 def _best_start(ground: Ground, tried: list[Hypothesis]) -> tuple[Hypothesis, Floats]:
-    """The alternative that explains most by its linear look, and coefficients there: plant, the effect, those present.
-
-    The look is taken from the model as it stands: a plant fitted without the effect is bent to make up for it.
-    """
+    """The alternative that explains most by its linear look, and coefficients there: plant, the effect, those present."""
     problem, (old, own) = ground.problem, present(ground.campaign)
     plant = len(NUISANCES)
     origin = point_of(old, [*np.zeros(plant), *own], Point())
-    columns = {one: by_effect(problem, one, origin, ground.nominal) for one in tried}
-    residual = problem.data - problem.whitened(ground.nominal)
-    looks = [look for one, by in columns.items() for look in looks_at(problem, one, residual, ground.by, by, columns)]
-    best = min(looks, key=lambda look: look.strained)
-    new = best.start[plant + len(own) :]
-    return best.hypothesis, np.concatenate([best.start[:plant], new, own + best.start[plant : plant + len(own)]])
+    columns = {one: by_effect(problem, one, origin, ground.begun.predictions) for one in tried}
+    best = min(looks_from(problem, columns, ground.fitted, ground.begun), key=lambda look: look.strained)
+    there, new = best.start[plant : plant + len(own)], best.start[plant + len(own) :]
+    return best.hypothesis, np.concatenate([best.start[:plant], new, there])
 
 
 def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fitted:

@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 
 from .campaign import Campaign
 from .errors_of import nrmse
-from .fit import Fitted, refine
+from .fit import Fitted, evaluate, refine
 from .hypotheses import NUISANCES, Hypothesis
-from .linear import linearised
 from .point import Point, Predictions, gathered, submit
 from .problem import Problem, pose
 from .rivals import Say, Trial, rivals, score, second_look
@@ -68,10 +67,10 @@ def diagnose(campaign: Campaign, executor: Executor, say: Say = lambda _: None, 
     nominal = gathered(runs, submit(campaign, runs, origin, executor))
     problem = pose(campaign, runs, executor, nominal)
     say("plant parameters")
-    begun = linearised(problem, None, np.zeros(len(NUISANCES)), origin)
-    none = refine(problem, None, np.zeros(len(NUISANCES)), origin, begun=begun)
+    begun = evaluate(problem, None, np.zeros(len(NUISANCES)), origin)
+    none = refine(problem, None, begun.coefficients, origin, begun=begun)
     say("every effect, linearised")
-    found = rivals(problem, origin, screen(problem, origin, nominal, begun[1], none), none, say)
+    found = rivals(problem, origin, screen(problem, origin, none, begun), none, say)
     judged = _judged(campaign, problem, nominal, none, found)
     if judged.kind == "unknown_effect" and (pair := second_look(problem, origin, found, none, say)):
         return _judged(campaign, problem, nominal, none, [*found, pair])

@@ -58,14 +58,14 @@ def refine(
     start: Floats,
     base: Point,
     rival: float = float("inf"),
-    begun: tuple[Predictions, Floats] | None = None,
+    begun: Fitted | None = None,
 ) -> Fitted:
-    """The best point near `start`; `begun` are predictions and derivatives there, where they are known.
+    """The best point near `start`; `begun` is what is known of `start`.
 
     A fit that expects to end above `rival` is left where it is. Raises `SimulationError` if `start` cannot be simulated.
     """
     directions, count, fresh = directions_of(hypothesis), len(problem.data), True
-    best = _evaluate(problem, hypothesis, np.asarray(start, float), base, begun)
+    best = begun or evaluate(problem, hypothesis, np.asarray(start, float), base)
     for done in range(ROUNDS):
         # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
         scale = scale_of(best.misfit, count)
@@ -81,14 +81,13 @@ def refine(
             break
         fresh = gain < max(enough, KEPT * promised)
         if fresh:
-            best = replace(_evaluate(problem, hypothesis, best.coefficients, base), deviation=best.deviation)
+            best = replace(evaluate(problem, hypothesis, best.coefficients, base), deviation=best.deviation)
     return best
 
 
-def _evaluate(
-    problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point, known: tuple[Predictions, Floats] | None = None
-) -> Fitted:
-    return _fitted(problem, hypothesis, x, base, *(known or linearised(problem, hypothesis, x, base)))
+def evaluate(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> Fitted:
+    """Misfit and derivatives at the coefficients x (k,). Raises `SimulationError` where the model cannot be simulated there."""
+    return _fitted(problem, hypothesis, x, base, *linearised(problem, hypothesis, x, base))
 
 
 def _fitted(

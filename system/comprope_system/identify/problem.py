@@ -97,13 +97,12 @@ class Solution:
 
 
 def solve(
-    residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats | None = None, scale: float = 1.0
+    residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats, scale: float = 1.0
 ) -> Solution:
     """Most likely coefficients x of residual = matrix @ (x - start) within bounds, given their priors.
 
     `scale` is what the squares of the residual stand for: with a model that misses much more than noise, priors count the more.
     """
-    start = np.zeros(len(directions)) if start is None else start
     prior = np.array([one.prior for one in directions])
     rows = np.vstack([matrix, np.diag(scale**0.5 / prior)])
     target = np.concatenate([residual + matrix @ start, np.zeros(len(prior))])
@@ -116,10 +115,10 @@ def solve(
     return Solution(found, misfit + scale * penalty, misfit, deviation)
 
 
-def solve_in_scale(residual: Floats, matrix: Floats, directions: Sequence[Direction]) -> Solution:
-    """As `solve` from zero, in the scale of what is left even so."""
-    sharp = solve(residual, matrix, directions)
-    return solve(residual, matrix, directions, scale=scale_of(sharp.misfit, len(residual)))
+def solve_in_scale(residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats) -> Solution:
+    """As `solve`, in the scale of what is left even so."""
+    sharp = solve(residual, matrix, directions, start)
+    return solve(residual, matrix, directions, start, scale_of(sharp.misfit, len(residual)))
 
 
 def scale_of(misfit: float, count: int) -> float:

@@ -62,12 +62,11 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
 
     A linear look alone does not win: whichever leads is fitted as well, until what leads is a fit.
     """
-    worst = max(one.misfit for one in screened)
     worth = NOTICED * len(problem.data)
-    least = max(PROMISING * (worst - screened[0].misfit), worth)
-    found = [_by_look(one, none, worst) for one in screened]
+    least = max(PROMISING * (none.misfit - screened[0].misfit), worth)
+    found = [_by_look(one, none) for one in screened]
     for k, one in enumerate(screened[:REFINED]):
-        if worst - one.misfit > least and _may_win(found[k], none, found):
+        if none.misfit - one.misfit > least and _may_win(found[k], none, found):
             found[k] = _on_full_model(problem, origin, one, none, found, say)
     while not found[leader := _leader(found, len(problem.data))].refined and found[leader].fitted.misfit < none.misfit - worth:
         found[leader] = _on_full_model(problem, origin, screened[leader], none, found, say)
@@ -84,11 +83,9 @@ def _leader(found: Sequence[Trial], count: int) -> int:
     return max(range(len(found)), key=lambda k: found[k].score(count))
 
 
-def _by_look(one: Screened, none: Fitted, worst: float) -> Trial:
+def _by_look(one: Screened, none: Fitted) -> Trial:
     """The fit that a linear look promises."""
-    return Trial(
-        one, replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=none.misfit * one.misfit / worst), False
-    )
+    return Trial(one, replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=one.misfit), False)
 
 
 def _on_full_model(
@@ -112,7 +109,7 @@ def second_look(problem: Problem, origin: Point, found: Sequence[Trial], none: F
     if first is None or first.hypothesis is None or first.misfit > SECOND * none.misfit:
         return None
     say(f"{first.hypothesis.effect} and a second effect, linearised")
-    screened = screen(problem, first.point, first.predictions, first.by, first)
+    screened = screen(problem, first.point, first)
     pairs = [pair for one in screened[:PAIRS] if (pair := _pair(problem, origin, first, one, say))]
     return min(pairs, key=lambda one: one.fitted.misfit, default=None)
 
@@ -122,9 +119,8 @@ def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say:
     assert first.hypothesis is not None
     both = together(first.hypothesis, second.hypothesis)
     say(f"{both.effect}, on the full model")
-    start = np.concatenate([first.coefficients, np.zeros(len(second.hypothesis.directions))]) + second.start
     try:
-        return Trial(second, shaped(problem, origin, refine(problem, both, start, origin)), True)
+        return Trial(second, shaped(problem, origin, refine(problem, both, second.start, origin)), True)
     except SimulationError:
         return None
 

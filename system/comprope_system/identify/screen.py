@@ -1,6 +1,6 @@
 """The linear look at every hypothesis: what it would explain beside the plant, and where its refinement begins."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import exp, log
 
@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .fit import Fitted
-from .hypotheses import NUISANCES, Direction, Hypothesis, hypotheses, of_instruments
-from .linear import by_effect, unit_points
-from .point import Point, Predictions
+from .hypotheses import Hypothesis, hypotheses, of_instruments
+from .linear import by_effect, directions_of, unit_points
+from .point import Point
 from .problem import Problem, solve_in_scale
 from .spectrum import frequencies
 from .turning import solve_turned
@@ -19,6 +19,7 @@ Floats = NDArray[np.float64]
 LOOKS = 200.0  # independent looks that a campaign is worth
 PRICE = 2.5  # about half the logarithm of LOOKS: of the score, for each parameter of an effect
 TURN = 1.0  # the same, for each run's own phase
+CLOSE = 5.0  # misfit per datum of a fit below which looks are best taken from there
 COARSEST = 0.3  # of the sheave's radius: elements of a first look
 
 
@@ -48,23 +49,28 @@ def price(hypothesis: Hypothesis, alternatives: int) -> float:
     return PRICE * (1 + len(hypothesis.directions) - turns) + TURN * turns + log(alternatives)
 
 
-def screen(problem: Problem, origin: Point, nominal: Predictions, beside: Floats, none: Fitted) -> list[Screened]:
+def screen(problem: Problem, origin: Point, none: Fitted, nominal: Fitted | None = None) -> list[Screened]:
     """Every effect's best alternative, most promising first; effects that `origin` has are left out.
 
-    `nominal` are the predictions at `origin`, `beside` (N, k) the derivatives there by the plant and by effects it has.
+    Looks are taken from the fit `none`, and from `nominal` as well where that fit misses much: it is bent for what it lacks.
     """
     present = {key.split(".")[1] for key in origin.effects}
     known = hypotheses(problem.campaign.model, frequencies(problem, none.predictions))
     tried = [one for one in known if one.effect not in present]
     columns = dict(_effect_columns(problem, origin, tried))
     faults = of_instruments(problem.campaign.channels)
-    columns |= {one: by_effect(problem, one, origin, nominal) for one in faults if one.effect not in present}
-    residual = problem.data - problem.whitened(nominal)
+    columns |= {one: by_effect(problem, one, origin, none.predictions) for one in faults if one.effect not in present}
+    looks = looks_from(problem, columns, none, nominal)
     best: dict[str, Screened] = {}
-    looks = [look for one, by in columns.items() for look in looks_at(problem, one, residual, beside, by, columns)]
     for look in sorted(looks, key=lambda one: one.strained):
         best.setdefault(look.hypothesis.effect, look)
     return list(best.values())
+
+
+def looks_from(problem: Problem, columns: Mapping[Hypothesis, Floats], none: Fitted, nominal: Fitted | None) -> list[Screened]:
+    """All looks at hypotheses with their derivatives (N, directions)."""
+    stands = [none] if nominal is None or none.misfit < CLOSE * len(problem.data) else [none, nominal]
+    return [look for at in stands for one, by in columns.items() for look in _looks_at(problem, one, by, columns, at, none)]
 
 
 def _effect_columns(problem: Problem, origin: Point, tried: Sequence[Hypothesis]) -> Iterator[tuple[Hypothesis, Floats]]:
@@ -89,19 +95,23 @@ def coarseness(problem: Problem) -> float:
     return 2.0 if 2.0 * model.rope.element_length <= COARSEST * model.sheave.radius else 1.0
 
 
-def looks_at(
-    problem: Problem, one: Hypothesis, residual: Floats, beside: Floats, by: Floats, among: dict[Hypothesis, Floats]
+def _looks_at(
+    problem: Problem, one: Hypothesis, by: Floats, among: Mapping[Hypothesis, Floats], at: Fitted, none: Fitted
 ) -> Iterator[Screened]:
-    """The hypothesis with one phase for all runs and, where it has a phase, with one for each."""
-    # Columns beyond the plant's belong to effects that are there already.
-    others = [*NUISANCES, *(Direction("present", {}, 3.0) for _ in range(beside.shape[1] - len(NUISANCES)))]
-    weights = np.vstack([beside, np.diag([1.0 / p.prior for p in others])])
+    """The hypothesis with one phase for all runs and, where it has a phase, with one for each, seen from the fit `at`.
+
+    What it would leave is told as a share of what `none` leaves.
+    """
+    others, residual, begin = directions_of(at.hypothesis), problem.data - problem.whitened(at.predictions), at.coefficients
+    weights = np.vstack([at.by, np.diag([1.0 / p.prior for p in others])])
     padded = np.vstack([by, np.zeros((len(others), by.shape[1]))])
     sideways = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(by)]
     visible = float(np.linalg.norm(sideways)) / max(float(np.linalg.norm(by)), 1e-300)
     same = sum(other.effect == one.effect for other in among)
-    solution = solve_in_scale(residual, np.hstack([beside, by]), [*others, *one.directions])
-    yield Screened(one, solution.coefficients, solution.misfit, sideways, visible, same)
+    share = none.misfit / solve_in_scale(residual, at.by, others, begin).misfit
+    start = np.concatenate([begin, np.zeros(by.shape[1])])
+    solution = solve_in_scale(residual, np.hstack([at.by, by]), [*others, *one.directions], start)
+    yield Screened(one, solution.coefficients, share * solution.misfit, sideways, visible, same)
     if one.polar and len(problem.runs) > 1:
-        turned, start, misfit = solve_turned(problem, residual, beside, others, by, one)
-        yield Screened(turned, start, misfit, sideways, visible, 2 * same)
+        turned, found, misfit = solve_turned(problem, at, by, one)
+        yield Screened(turned, found, share * misfit, sideways, visible, 2 * same)

@@ -10,7 +10,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from .fit import Fitted
 from .hypotheses import Direction, Hypothesis
+from .linear import directions_of
 from .problem import Problem, solve_in_scale
 
 Floats = NDArray[np.float64]
@@ -24,19 +26,18 @@ def with_own_phases(hypothesis: Hypothesis, files: Sequence[str]) -> Hypothesis:
     return replace(hypothesis, directions=(*hypothesis.directions, *own), turned=tuple(files))
 
 
-def solve_turned(
-    problem: Problem, residual: Floats, beside: Floats, others: Sequence[Direction], by: Floats, hypothesis: Hypothesis
-) -> tuple[Hypothesis, Floats, float]:
-    """The hypothesis with own phases, coefficients (those of `beside` first), and the misfit, by one linear solve.
+def solve_turned(problem: Problem, at: Fitted, by: Floats, hypothesis: Hypothesis) -> tuple[Hypothesis, Floats, float]:
+    """The hypothesis with own phases, coefficients (those of the fit `at` first), and the misfit, by one linear solve.
 
-    `beside` (N, others) are derivatives by other coefficients, `by` (N, 2) those by the cosine and the sine.
+    `by` (N, 2) are derivatives by the cosine and the sine.
     """
     pairs = np.hstack([by * rows[:, None] for rows in problem.rows_of_runs])
-    count = len(problem.runs)
-    solution = solve_in_scale(residual, np.hstack([beside, pairs]), [*others, *hypothesis.directions * count])
+    count, others, residual = len(problem.runs), directions_of(at.hypothesis), problem.data - problem.whitened(at.predictions)
+    begin = np.concatenate([at.coefficients, np.zeros(2 * count)])
+    solution = solve_in_scale(residual, np.hstack([at.by, pairs]), [*others, *hypothesis.directions * count], begin)
     z = np.array([complex(*pair) for pair in solution.coefficients[len(others) :].reshape(count, 2)])
     mean = z.sum() if abs(z.sum()) > 0.0 else complex(1.0)
     common = float(np.abs(z).mean()) * mean / abs(mean)
     turns = np.where(np.abs(z) > 0.0, np.angle(z / mean), 0.0)
-    start = np.concatenate([solution.coefficients[: len(others)], [common.real, common.imag], turns])
-    return with_own_phases(hypothesis, [run.file for run in problem.runs]), start, solution.misfit
+    found = np.concatenate([solution.coefficients[: len(others)], [common.real, common.imag], turns])
+    return with_own_phases(hypothesis, [run.file for run in problem.runs]), found, solution.misfit

@@ -45,7 +45,7 @@ CROSSFLOW = slot("effects.shaft_airflow.crossflow_ratio")
 def normal_velocity(n, p, v, w, y, i):
     """Normal of the rope at node i and its velocity along that normal, relative to the air."""
     m = n + 1
-    wind = copysign(p[CROSSFLOW], y) * -v[0]
+    wind = p[CROSSFLOW] * copysign(1.0, y) * -v[0]
     nx, ny = -0.5 * (w[TY * m + i - 1] + w[TY * m + i]), 0.5 * (w[TX * m + i - 1] + w[TX * m + i])
     return nx, ny, nx * v[i] + ny * (v[m + i] - wind)
 
