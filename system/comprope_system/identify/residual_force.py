@@ -50,6 +50,10 @@ class Suspect:
         """Root mean square of the force over all runs."""
         return rms(np.concatenate([one.value for one in self.courses.values()]))
 
+    def sized(self) -> str:
+        """The size with its unit."""
+        return f"{self.size:.2g} {self.place.unit.replace('.', ' ')}"
+
     def to_json(self, clues: Sequence[Clue]) -> dict[str, Any]:
         """Place, share, size, what it is locked to, and its courses."""
         return {
@@ -69,10 +73,10 @@ class ResidualForce:
     def told(self) -> str:
         """One sentence."""
         best = self.suspects[0]
+        explains = f"explains {100.0 * best.share:.0f} % of what is left"
         if best.share < CLEAR:
-            return f"No force at one place explains it; the best, {best.place.name}, explains {100.0 * best.share:.0f} % of what is left"
-        size = f"{best.size:.2g} {best.place.unit.replace('.', ' ')}"
-        told = f"{best.place.name} of {size} rms explains {100.0 * best.share:.0f} % of what is left"
+            return f"No force at one place accounts for it; the best, {best.place.name}, {explains}"
+        told = f"{best.place.name} of {best.sized()} rms {explains}"
         clear = [one for one in self.clues if one.share > (CLEAR if one.peak is None else SURE)]
         where = f" at {clear[0].peak:.3g} {clear[0].unit}" if clear and clear[0].peak is not None else ""
         follows = f"it follows {clear[0].coordinate}{where}" if clear else "it follows nothing from run to run"

@@ -32,6 +32,8 @@ MOST = 50  # splines of a run, about
 GROUP = 60  # directions of one tangent-linear run
 TIED = 3  # splines that overlap the start of a record: as one they stand for a force that was there before
 
+Shown = list[dict[str, Floats]]  # for each pulse every channel (n,)
+
 
 @dataclass(frozen=True)
 class Place:
@@ -110,7 +112,7 @@ def responses(problem: Problem, point: Point, looked: Sequence[Place]) -> list[l
     return [[matrices[k] for matrices in by_run] for k in range(len(looked))]
 
 
-def _begun(problem: Problem, point: Point, run: Run, looked: Sequence[Place]) -> list[Future[list[dict[str, Floats]]]]:
+def _begun(problem: Problem, point: Point, run: Run, looked: Sequence[Place]) -> list[Future[Shown]]:
     """Start the tangent-linear runs of one record, a group of pulses each."""
     campaign, coarse, splines = problem.campaign, coarseness(problem), splines_of(run)
     changes = problem.held_back(point).changes(campaign.model, run)
@@ -121,7 +123,7 @@ def _begun(problem: Problem, point: Point, run: Run, looked: Sequence[Place]) ->
     return [problem.executor.submit(answers, model, moved, campaign.channels, some, coarse) for some in groups]
 
 
-def _gathered(problem: Problem, run: Run, looked: Sequence[Place], jobs: Sequence[Future[list[dict[str, Floats]]]]) -> list[Floats]:
+def _gathered(problem: Problem, run: Run, looked: Sequence[Place], jobs: Sequence[Future[Shown]]) -> list[Floats]:
     """The whitened matrix of each place for one record."""
     shown = [one for job in jobs for one in job.result()]
     parts = [one for one in problem.parts if one.run == run.file]
@@ -131,7 +133,7 @@ def _gathered(problem: Problem, run: Run, looked: Sequence[Place], jobs: Sequenc
 
 def answers(
     model: RopeModel, run: Run, channels: Mapping[str, Channel], pulses: Sequence[tuple[Place, float, float]], coarse: float
-) -> list[dict[str, Floats]]:
+) -> Shown:
     """Each channel of a run by the size of each pulse (place, time, width)."""
     directions = {str(k): {KEY + place.quantity: 1.0} for k, (place, _, _) in enumerate(pulses)}
     at = {

@@ -71,7 +71,7 @@ def estimate(matrices: Sequence[Floats], plant: Floats, r: Floats, rows: NDArray
     """The most likely force at one place.
 
     `matrices` are the responses of each run (data of the run, coefficients), `rows` (runs, N) which data are a run's; `plant`
-    (N, k) the responses to plant parameters of unit prior; r (N,) the residual; `fold` (N,) the fold in which a datum is left out.
+    (N, k) the responses to plant parameters of unit prior; r (N,) the residual; `fold` (N,) says when a datum is left out.
     """
     counts = [one.shape[1] for one in matrices]
     x = np.zeros((len(r), sum(counts)))
@@ -120,7 +120,7 @@ def prior_root(count: int, smooth: float) -> Floats:
 
 
 def folds(parts: Sequence[Part], times: Sequence[Floats]) -> NDArray[np.int64]:
-    """The fold of each datum (N,): neighbours in time and channels of one time lie in others. `times` are those of the parts' bins."""
+    """The fold of each datum (N,): neighbours in time and other channels lie in others. `times` are those of the parts' bins."""
     columns = list(dict.fromkeys(one.column for one in parts))
     found = [(time // BLOCK).astype(np.int64) + 2 * columns.index(one.column) for one, time in zip(parts, times, strict=True)]
     return np.concatenate(found) % FOLDS

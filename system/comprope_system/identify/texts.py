@@ -165,9 +165,7 @@ def least_table(judged: Judged) -> Table:
 
 def force_table(force: ResidualForce, most: int = 100) -> Table:
     """Places of an unknown force: what it explains of the rest there, and its size."""
-    rows = [
-        (one.place.name, percent(one.share), f"{number(one.size)} {one.place.unit.replace('.', ' ')}") for one in force.suspects[:most]
-    ]
+    rows = [(one.place.name, percent(one.share), one.sized()) for one in force.suspects[:most]]
     return Table(("if it is", "explains of the rest", "rms"), rows, "Judged on data that were left out of each estimate")
 
 
