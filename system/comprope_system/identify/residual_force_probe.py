@@ -16,7 +16,9 @@ class ResidualForce(Effect):
 
     name = "residual_force"
     sheave_force: float = quantity("N", "upward force on the sheave", -MOST, MOST, default=0.0, nominal=1.0)
-    sheave_torque: float = quantity("N.m", "torque on the sheave, as it turns while the car goes up", -MOST, MOST, default=0.0, nominal=1.0)
+    sheave_torque: float = quantity(
+        "N.m", "torque on the sheave, as it turns while the car goes up", -MOST, MOST, default=0.0, nominal=1.0
+    )
     car_side: float = quantity("N/m", "outward force on the car's side of the rope", -MOST, MOST, default=0.0, nominal=1.0)
     counterweight_side: float = quantity("N/m", "the same on the counterweight's side", -MOST, MOST, default=0.0, nominal=1.0)
     car_end_out: float = quantity("m", "outward motion of the end under the car", -MOST, MOST, default=0.0, nominal=1.0)
