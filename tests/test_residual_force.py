@@ -1,12 +1,17 @@
-"""A force that no effect of the library expresses is found at its place, with its size and what it follows."""
+"""A force that no effect of the library expresses is found at its place, with its size and what it follows.
+
+The lift that is measured has another mesh, step and plant than the model. Shares are of what the refitted plant leaves, which it
+bends for some of the force; they are judged on data left out, and so stay below one.
+"""
 
 import json
 
 import numpy as np
 import pytest
 
+from comprope.rope.modelfile import with_changes
 from comprope_system.identify import figures, replay, texts
-from comprope_system.identify.campaign import load_campaign
+from comprope_system.identify.campaign import Channel, load_campaign
 from comprope_system.identify.fit import refine
 from comprope_system.identify.hypotheses import NUISANCES
 from comprope_system.identify.jobs import threads
@@ -14,83 +19,125 @@ from comprope_system.identify.plain import plain
 from comprope_system.identify.point import Point, gathered, submit
 from comprope_system.identify.problem import pose
 from comprope_system.identify.residual_force import residual_force
+from comprope_system.identify.residual_force_places import KEY, probed
 from comprope_system.identify.residual_force_solve import estimate, prior_root
 
 from . import virtual_lift
 
-KICK, WAVE = 4e-3, 3.5  # m: how far and at which distances rails push the car
-TORQUE = 8.0  # N m
+KICK, WAVE = 4e-3, 5.0  # m: how far and at which distances rails push the car
+STRETCH = 5e-4  # s2: how far the counterweight's end lags per acceleration
+TORQUE, WHEN, WIDTH = 30.0, 4.0, 0.4  # N m, s, s: a pulse on the sheave, of the largest value 2/3 TORQUE
 
 
-def found_in(folder, hidden):
-    """The residual force in a campaign, of the model with its plant refitted."""
-    campaign = load_campaign(virtual_lift.campaign(folder, hidden))
+HIGHER = virtual_lift.MODEL.sensors[1].model_copy(update={"name": "car_mid", "height": 3.0})
+
+
+def found_in(folder, measured):
+    """The residual force in a campaign whose lift is replayed by `measured`, of the model with its plant refitted.
+
+    One laser sees a push and a motion of the end much alike; a second on the car's side tells them apart.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(virtual_lift, "replay", measured)
+        sensors = (*virtual_lift.MODEL.sensors, HIGHER)
+        patch.setattr(virtual_lift, "MODEL", virtual_lift.MODEL.model_copy(update={"sensors": sensors}))
+        another = Channel(column="car_mid", sensor="car_mid", **virtual_lift.LASER)
+        patch.setattr(virtual_lift, "CHANNELS", virtual_lift.CHANNELS | {"car_mid": another})
+        campaign = load_campaign(virtual_lift.campaign(folder, {}))
     runs, start = campaign.of_role("fit"), np.zeros(len(NUISANCES))
     with threads() as executor:
         problem = pose(campaign, runs, executor, gathered(runs, submit(campaign, runs, Point(), executor)))
         return campaign, residual_force(problem, refine(problem, None, start, Point()))
 
 
-@pytest.fixture(scope="module")
-def pushed(tmp_path_factory):
-    """The car's end sways with the car's position."""
+def moved(move):
+    """A replay in which the ends go other ways: move(paths, run, grid)."""
     plain_paths = replay._paths
 
-    def swayed(model, run, grid):
-        paths, k = plain_paths(model, run, grid), 2.0 * np.pi / WAVE
-        (x, v, a), wave = paths[:, 0].T, k * paths[:, 0, 0]
-        begun = k * x[0]
-        paths[:, 1, 0] += KICK * (np.sin(wave) - np.sin(begun))
-        paths[:, 1, 1] += KICK * k * v * np.cos(wave)
-        paths[:, 1, 2] += KICK * k * (a * np.cos(wave) - k * v**2 * np.sin(wave))
+    def other(model, run, grid):
+        paths = plain_paths(model, run, grid)
+        move(paths, run, grid)
         return paths
 
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(virtual_lift, "replay", lambda *args: _with(swayed, args))
-        return found_in(tmp_path_factory.mktemp("pushed"), {})
+    def measured(*args):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(replay, "_paths", other)
+            return replay.replay(*args)
+
+    return measured
 
 
-def _with(paths, args):
-    """A replay in which the ends go other ways."""
-    with pytest.MonkeyPatch.context() as inner:
-        inner.setattr(replay, "_paths", paths)
-        return replay.replay(*args)
+def sway(paths, run, grid):
+    """The car's end goes outward by KICK sin(2 pi z / WAVE), from where it is at first."""
+    k = 2.0 * np.pi / WAVE
+    x, v, a = paths[:, 0].T
+    paths[:, 1, 0] -= KICK * (np.sin(k * x[0]) - np.sin(k * x))
+    paths[:, 1, 1] += KICK * k * v * np.cos(k * x)
+    paths[:, 1, 2] += KICK * k * (a * np.cos(k * x) - k * v**2 * np.sin(k * x))
+
+
+def lag(paths, run, grid):
+    """The counterweight's end moves by STRETCH times the car's acceleration."""
+    z = STRETCH * run.trip.acceleration(grid)
+    for k in range(3):
+        paths[:, 2, k] -= z
+        z = np.gradient(z, grid)
+
+
+def twisted(model, run, channels, step):
+    """A replay with a pulse of torque on the sheave."""
+    pulse = {KEY + "sheave_torque": TORQUE, KEY + "time": WHEN, KEY + "width": WIDTH}
+    return replay.replay(with_changes(probed(model), pulse), run, channels, step)
 
 
 @pytest.fixture(scope="module")
-def braked(tmp_path_factory):
-    """The sheave's bearing resists, as if bearing friction were in nobody's library."""
-    return found_in(tmp_path_factory.mktemp("braked"), {"effects.bearing_friction.coulomb_torque": TORQUE})
+def pushed(tmp_path_factory):
+    return found_in(tmp_path_factory.mktemp("pushed"), moved(sway))
+
+
+@pytest.fixture(scope="module")
+def lagging(tmp_path_factory):
+    return found_in(tmp_path_factory.mktemp("lagging"), moved(lag))
+
+
+@pytest.fixture(scope="module")
+def turned(tmp_path_factory):
+    return found_in(tmp_path_factory.mktemp("turned"), twisted)
+
+
+def require(found, quantity, truth, close):
+    """The place is right and clearly ahead, and the course in each run is `truth(run, time)` within `close` of its rms."""
+    campaign, force = found
+    best, second = force.suspects[:2]
+    assert best.place.quantity == quantity
+    assert best.share > 0.5 and second.share < best.share - 0.1
+    for run in campaign.of_role("fit"):
+        course = best.courses[run.file]
+        expected = truth(run, course.time)
+        assert np.std(course.value - expected) < close * np.std(expected)
 
 
 def test_a_push_on_the_cars_end_is_found_there(pushed):
-    campaign, force = pushed
-    best, second = force.suspects[:2]
-    assert best.place.quantity == "car_end_out"
-    assert best.share > 0.6 and second.share < best.share - 0.1
-    # Its motion is about KICK / sqrt(2); a static part is not seen, since lasers count from rest.
-    for run in campaign.of_role("fit"):
-        course = best.courses[run.file]
-        z = -run.trip.position(course.time)
-        true = -KICK * (np.sin(2 * np.pi * z / WAVE) - np.sin(2 * np.pi * z[0] / WAVE))
-        assert np.std(course.value - true) < 0.4 * np.std(true)
+    def truth(run, time):
+        wave = np.sin(2.0 * np.pi * run.trip.position(time) / WAVE)
+        return wave * -KICK
+
+    require(pushed, "car_end_out", truth, 0.4)
 
 
-def test_a_torque_on_the_sheave_is_found_there(braked):
-    campaign, force = braked
-    best, second = force.suspects[:2]
-    assert best.place.quantity == "sheave_torque"
-    assert best.share > 0.6 and second.share < best.share - 0.1
-    for run in campaign.of_role("fit"):
-        course = best.courses[run.file]
-        cruise = np.abs(run.trip.velocity(course.time)) > 1.0
-        assert np.abs(course.value[cruise]).mean() == pytest.approx(TORQUE, rel=0.2)
+def test_a_motion_of_the_counterweights_end_is_found_there(lagging):
+    require(lagging, "counterweight_end_up", lambda run, time: STRETCH * run.trip.acceleration(time), 0.4)
 
 
-def test_what_it_follows_is_told(pushed, braked):
-    assert "the car's position" in [one.coordinate for one in pushed[1].clues[:3]]
-    assert "the car's velocity" in [one.coordinate for one in braked[1].clues[:3]]
-    for campaign, force in (pushed, braked):
+def test_a_torque_on_the_sheave_is_found_there(turned):
+    campaign, force = turned
+    assert force.suspects[0].place.quantity == "sheave_torque"
+    assert force.suspects[0].share > 0.5
+
+
+def test_what_it_follows_is_told(pushed, lagging):
+    for (campaign, force), follows in ((pushed, "the car's position"), (lagging, "the car's acceleration")):
+        assert follows in [one.coordinate for one in force.clues[:3]]
         assert force.suspects[0].place.name[2:] in force.told() and "%" in force.told()
         told = json.loads(json.dumps(plain(force.to_json()), allow_nan=False))
         assert [one["share"] for one in told] == sorted((one["share"] for one in told), reverse=True)
@@ -100,7 +147,7 @@ def test_what_it_follows_is_told(pushed, braked):
 
 
 def test_the_estimate_of_a_known_course():
-    """White noise on a smooth course through a known response: the course comes back, and free columns explain nothing."""
+    """White noise on a smooth course through a known response: the course comes back, and a wrong response explains nothing."""
     random, count, n = np.random.default_rng(3), 40, 800
     response, other = random.standard_normal((2, n, count))
     course = prior_root(count, 3.0) @ random.standard_normal(count)

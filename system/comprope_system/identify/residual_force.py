@@ -26,6 +26,7 @@ from .screen import coarseness
 
 GRID = 0.1  # s between the values of a course that are told
 SURE = 0.6  # share above which a sinusoid is worth telling of a course, which is smooth and thus never far from one
+ALIKE = 0.1  # difference of shares below which one place is hardly told from another
 Say = Callable[[str], None]
 
 
@@ -80,7 +81,9 @@ class ResidualForce:
         clear = [one for one in self.clues if one.share > (CLEAR if one.peak is None else SURE)]
         where = f" at {clear[0].peak:.3g} {clear[0].unit}" if clear and clear[0].peak is not None else ""
         follows = f"it follows {clear[0].coordinate}{where}" if clear else "it follows nothing from run to run"
-        return f"{told[0].upper()}{told[1:]}; {follows}"
+        alike = [f"{one.place.name} ({100.0 * one.share:.0f} %)" for one in self.suspects[1:] if one.share > best.share - ALIKE]
+        rivals = f"; these data hardly tell it from {', '.join(alike)}" if alike else ""
+        return f"{told[0].upper()}{told[1:]}; {follows}{rivals}"
 
     def to_json(self) -> list[dict[str, Any]]:
         """The places, best first; only the best has been asked what it is locked to."""
@@ -97,11 +100,12 @@ def residual_force(problem: Problem, fitted: Fitted, say: Say = lambda _: None) 
     except SimulationError:
         return None
     r = problem.data - problem.whitened(fitted.predictions)
-    plant = fitted.by * [one.prior for one in NUISANCES]
+    priors = np.array([one.prior for one in NUISANCES])
+    plant, moved = fitted.by * priors, fitted.coefficients / priors
     times = {run.file: run.time for run in problem.runs}
     fold = folds(problem.parts, [one.means(times[one.run]) for one in problem.parts])
     found = [
-        _suspect(problem, place, own, estimate(own, plant, r, problem.rows_of_runs, fold), float(r @ r))
+        _suspect(problem, place, own, estimate(own, plant, r + plant @ moved, problem.rows_of_runs, fold), float(r @ r))
         for place, own in zip(looked, matrices, strict=True)
     ]
     best_first = sorted(found, key=lambda one: -one.share)

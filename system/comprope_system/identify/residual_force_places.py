@@ -28,7 +28,7 @@ PROBE = Path(__file__).with_name("residual_force_probe.py")
 KEY = "effects.residual_force."
 BANDS = 3  # of heights on each side at which a push from the shaft is looked for
 SPACING = 0.3  # s between splines, at least
-MOST = 50  # splines of a run, about
+MOST = 40  # splines of a run, about
 GROUP = 60  # directions of one tangent-linear run
 TIED = 3  # splines that overlap the start of a record: as one they stand for a force that was there before
 

@@ -71,7 +71,8 @@ def estimate(matrices: Sequence[Floats], plant: Floats, r: Floats, rows: NDArray
     """The most likely force at one place.
 
     `matrices` are the responses of each run (data of the run, coefficients), `rows` (runs, N) which data are a run's; `plant`
-    (N, k) the responses to plant parameters of unit prior; r (N,) the residual; `fold` (N,) says when a datum is left out.
+    (N, k) the responses to plant parameters of unit prior; r (N,) the residual where those are zero; `fold` (N,) says when a
+    datum is left out.
     """
     counts = [one.shape[1] for one in matrices]
     x = np.zeros((len(r), sum(counts)))
