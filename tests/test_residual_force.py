@@ -8,6 +8,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy.interpolate import BSpline
 
 from comprope.rope.modelfile import with_changes
 from comprope_system.identify import figures, replay, texts
@@ -105,14 +106,15 @@ def turned(tmp_path_factory):
     return found_in(tmp_path_factory.mktemp("turned"), twisted)
 
 
-def require(found, quantity, truth, close):
-    """The place is right and clearly ahead, and the course in each run is `truth(run, time)` within `close` of its rms."""
+def require(found, quantity, truth, close, twin=None):
+    """The place, or its twin, is first and 0.1 ahead; the course there is `truth(run, time)` but for its level, `close` to its rms."""
     campaign, force = found
-    best, second = force.suspects[:2]
-    assert best.place.quantity == quantity
-    assert best.share > 0.5 and second.share < best.share - 0.1
+    first = force.suspects[: 2 if twin else 1]
+    assert {one.place.quantity for one in first} == {quantity, twin} - {None}
+    right = next(one for one in first if one.place.quantity == quantity)
+    assert right.share > 0.5 and force.suspects[len(first)].share < right.share - 0.1
     for run in campaign.of_role("fit"):
-        course = best.courses[run.file]
+        course = right.courses[run.file]
         expected = truth(run, course.time)
         assert np.std(course.value - expected) < close * np.std(expected)
 
@@ -120,25 +122,27 @@ def require(found, quantity, truth, close):
 def test_a_push_on_the_cars_end_is_found_there(pushed):
     def truth(run, time):
         wave = np.sin(2.0 * np.pi * run.trip.position(time) / WAVE)
-        return wave * -KICK
+        return KICK * wave
 
-    require(pushed, "car_end_out", truth, 0.4)
+    # While the car is 7 m above the lasers, as one run begins, the level of its end hardly shows.
+    require(pushed, "car_end_out", truth, 0.5)
 
 
 def test_a_motion_of_the_counterweights_end_is_found_there(lagging):
-    require(lagging, "counterweight_end_up", lambda run, time: STRETCH * run.trip.acceleration(time), 0.4)
+    # The car's end lifts the sheave as the counterweight's does: the turning differs by some 3 mrad/s, its noise is 10.
+    require(lagging, "counterweight_end_up", lambda run, time: STRETCH * run.trip.acceleration(time), 0.3, twin="car_end_up")
+    assert "hardly tell it from" in lagging[1].told()
 
 
 def test_a_torque_on_the_sheave_is_found_there(turned):
-    campaign, force = turned
-    assert force.suspects[0].place.quantity == "sheave_torque"
-    assert force.suspects[0].share > 0.5
+    pulse = BSpline.basis_element(np.arange(-2.0, 3.0), extrapolate=False)
+    # A steady torque hardly shows, so the course is uncertain by some N m beside the pulse.
+    require(turned, "sheave_torque", lambda run, time: TORQUE * np.nan_to_num(pulse((time - WHEN) / WIDTH)), 0.5)
 
 
 def test_what_it_follows_is_told(pushed, lagging):
     for (campaign, force), follows in ((pushed, "the car's position"), (lagging, "the car's acceleration")):
-        assert follows in [one.coordinate for one in force.clues[:3]]
-        assert force.suspects[0].place.name[2:] in force.told() and "%" in force.told()
+        assert f"it follows {follows}" in force.told() and force.suspects[0].place.name[2:] in force.told()
         told = json.loads(json.dumps(plain(force.to_json()), allow_nan=False))
         assert [one["share"] for one in told] == sorted((one["share"] for one in told), reverse=True)
         assert told[0]["locked_to"] and {"place", "share", "size", "unit", "courses"} <= set(told[0])

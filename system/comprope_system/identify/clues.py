@@ -28,7 +28,10 @@ CLEAR = 0.3  # share above which a clue is worth telling
 
 @dataclass(frozen=True)
 class Piece:
-    """The residual of one channel in one run: `x` (n,), scaled by its rms over all runs, and coordinates (n,) beside it."""
+    """The residual of one channel in one run: `x` (n,), scaled by its rms over all runs, and coordinates (n,) beside it.
+
+    A `floating` one is known but for its level in the run.
+    """
 
     run: str
     column: str
@@ -36,6 +39,7 @@ class Piece:
     at: dict[str, Floats]
     standing: NDArray[np.bool_]
     moving: NDArray[np.bool_]
+    floating: bool = False
 
     def seen(self, coordinate: str) -> tuple[Floats, Floats]:
         """Coordinate and residual; where only motion tells places apart, while the car moves."""
@@ -168,9 +172,11 @@ def profile_share(pieces: list[Piece], coordinate: str) -> float:
         for run in {one.run for one in group}:
             known = [one for one in group if one.run != run]
             profile = _profile(known, coordinate, edges)
-            for place, x in (one.seen(coordinate) for one in group if one.run == run):
-                left += float(((x - profile[np.digitize(place, edges[1:-1])]) ** 2).sum())
-                whole += float((x**2).sum())
+            for one in (one for one in group if one.run == run):
+                place, x = one.seen(coordinate)
+                missed = x - profile[np.digitize(place, edges[1:-1])]
+                left += float(np.sum((missed - missed.mean() if one.floating else missed) ** 2))
+                whole += float(np.sum((x - x.mean() if one.floating else x) ** 2))
     return max(0.0, 1.0 - left / whole) if whole else 0.0
 
 

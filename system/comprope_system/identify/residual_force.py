@@ -78,7 +78,10 @@ class ResidualForce:
         if best.share < CLEAR:
             return f"No force at one place accounts for it; the best, {best.place.name}, {explains}"
         told = f"{best.place.name} of {best.sized()} rms {explains}"
-        clear = [one for one in self.clues if one.share > (CLEAR if one.peak is None else SURE)]
+        # A profile that holds from run to run says more than a sinusoid that may begin anywhere in each.
+        clear = [one for one in self.clues if one.peak is None and one.share > CLEAR] or [
+            one for one in self.clues if one.share > SURE
+        ]
         where = f" at {clear[0].peak:.3g} {clear[0].unit}" if clear and clear[0].peak is not None else ""
         follows = f"it follows {clear[0].coordinate}{where}" if clear else "it follows nothing from run to run"
         alike = [f"{one.place.name} ({100.0 * one.share:.0f} %)" for one in self.suspects[1:] if one.share > best.share - ALIKE]
@@ -132,10 +135,11 @@ def _sheave_velocities(problem: Problem, point: Point) -> dict[str, Floats]:
 
 
 def _piece(campaign: Campaign, run: Run, course: Course, sheave_velocity: Floats) -> Piece:
-    """A course beside the coordinates that it may be locked to."""
+    """A course beside the coordinates that it may be locked to; channels that count from rest hide its level."""
     t = course.time
     at = motion_of(campaign, run, t) | {"sheave_velocity": np.interp(t, run.time, sheave_velocity)}
-    return Piece(run.file, "force", course.value, at, phases(run.trip, t)["rest"], np.abs(run.trip.velocity(t)) > 0.0)
+    x, rest, moving = course.value - course.value.mean(), phases(run.trip, t)["rest"], np.abs(run.trip.velocity(t)) > 0.0
+    return Piece(run.file, "force", x, at, rest, moving, floating=True)
 
 
 def _scaled(pieces: Sequence[Piece]) -> list[Piece]:
