@@ -107,7 +107,7 @@ def turned(tmp_path_factory):
 
 
 def require(found, quantity, truth, close, twin=None):
-    """The place, or its twin, is first and 0.1 ahead; the course there is `truth(run, time)` but for its level, `close` to its rms."""
+    """The place, or its twin, is first and 0.1 ahead; its course is `truth(run, time)` but for its level, `close` to the rms."""
     campaign, force = found
     first = force.suspects[: 2 if twin else 1]
     assert {one.place.quantity for one in first} == {quantity, twin} - {None}
