@@ -127,7 +127,7 @@ def _suspect(problem: Problem, place: Place, matrices: Sequence[Floats], found: 
 
 def _sheave_velocities(problem: Problem, point: Point) -> dict[str, Floats]:
     """The sheave's vertical velocity (n,) [m/s] in each run of the refitted model, up positive."""
-    axle = {"axle": Channel(column="axle", quantity="sheave_displacement", unit="m")}
+    axle = {"axle": Channel.model_validate({"column": "axle", "quantity": "sheave_displacement", "unit": "m"})}
     model, here = problem.campaign.model, problem.held_back(point)
     moved = [replace(run, changes=here.changes(model, run)) for run in problem.runs]
     jobs = [problem.executor.submit(predict, model, run, axle, coarseness(problem)) for run in moved]
