@@ -1,8 +1,8 @@
 """What an unexplained residual is locked to: the clue to an effect that nobody has thought of.
 
-The residual is what the model leaves once its plant is refitted. Against each coordinate a profile is taken from all runs but
-one and tried on that one, so that a chance likeness within a run explains nothing. A sinusoid, in time or in
-the sheave's angle, may have a phase of its own in each run, since nobody knows where it began.
+The residual is what the model leaves once its plant is refitted, or the force that would explain it. Against each coordinate
+a profile is taken from all runs but one and tried on that one, so that a chance likeness within a run explains nothing. A
+sinusoid, in time or in the sheave's angle, may have a phase of its own in each run, since nobody knows where it began.
 """
 
 from collections.abc import Iterator
@@ -28,7 +28,10 @@ CLEAR = 0.3  # share above which a clue is worth telling
 
 @dataclass(frozen=True)
 class Piece:
-    """The residual of one channel in one run: `x` (n,), scaled by its rms over all runs, and coordinates (n,) beside it."""
+    """The residual of one channel in one run: `x` (n,), scaled by its rms over all runs, and coordinates (n,) beside it.
+
+    A `floating` one is known but for its level in the run.
+    """
 
     run: str
     column: str
@@ -36,6 +39,7 @@ class Piece:
     at: dict[str, Floats]
     standing: NDArray[np.bool_]
     moving: NDArray[np.bool_]
+    floating: bool = False
 
     def seen(self, coordinate: str) -> tuple[Floats, Floats]:
         """Coordinate and residual; where only motion tells places apart, while the car moves."""
@@ -60,10 +64,14 @@ class Clue:
 
 def clues(campaign: Campaign, predictions: Predictions) -> list[Clue]:
     """What the residual is locked to, the best explanation first."""
-    pieces = residual_pieces(campaign, predictions)
+    return locked(residual_pieces(campaign, predictions))
+
+
+def locked(pieces: list[Piece]) -> list[Clue]:
+    """What some series are locked to, of the coordinates that they have, the best explanation first."""
     if not pieces:
         return []
-    found = [Clue(WORDS[name], profile_share(pieces, name), "") for name in WORDS]
+    found = [Clue(words, profile_share(pieces, name), "") for name, words in WORDS.items() if name in pieces[0].at]
     found.append(_sinusoid(pieces, "time", FREQUENCIES, 2.0 * np.pi, "a frequency", "Hz"))
     found.append(_sinusoid(pieces, "angle", ORDERS, 1.0, "the sheave's angle", "periods a turn"))
     return sorted(found, key=lambda clue: -clue.share)
@@ -76,6 +84,7 @@ WORDS = {
     "velocity": "the car's velocity",
     "speed": "the car's speed, whichever way",
     "acceleration": "the car's acceleration",
+    "sheave_velocity": "the sheave's vertical velocity",
 }
 
 
@@ -110,7 +119,6 @@ def residual_pieces(campaign: Campaign, predictions: Predictions) -> list[Piece]
 
 def _pieces_of(campaign: Campaign, run: Run, predictions: Predictions) -> Iterator[Piece]:
     measured = referred(run.values, run, campaign.channels)
-    angle = sheave_angle(campaign, run)
     for column in campaign.channels:
         residual = measured[column] - predictions[run.file, column]
         known = np.flatnonzero(np.isfinite(residual))
@@ -118,26 +126,32 @@ def _pieces_of(campaign: Campaign, run: Run, predictions: Predictions) -> Iterat
             continue
         known = known[:: max(1, len(known) // SAMPLES)]
         t = run.time[known]
-        at = {"time": t, "since_start": t - run.trip.rest_before, "angle": angle[known], **_motion(campaign, run, column, t)}
+        at = motion_of(campaign, run, t) | {"material": _material(campaign, run, column, t)}
         yield Piece(run.file, column, residual[known], at, phases(run.trip, t)["rest"], np.abs(run.trip.velocity(t)) > 0.0)
 
 
-def _motion(campaign: Campaign, run: Run, column: str, t: Floats) -> dict[str, Floats]:
-    """Position, speed, acceleration of the car, and the place of the rope that a sensor sees, from the car's end [m]."""
-    position, velocity = run.trip.position(t), run.trip.velocity(t)
+def motion_of(campaign: Campaign, run: Run, t: Floats) -> dict[str, Floats]:
+    """Time, the car's motion, and the sheave's angle in a run at times t (n,) [s]."""
+    return {
+        "time": t,
+        "since_start": t - run.trip.rest_before,
+        "angle": np.interp(t, run.time, sheave_angle(campaign, run)),
+        "position": run.trip.position(t),
+        "velocity": run.trip.velocity(t),
+        "speed": np.abs(run.trip.velocity(t)),
+        "acceleration": run.trip.acceleration(t),
+    }
+
+
+def _material(campaign: Campaign, run: Run, column: str, t: Floats) -> Floats:
+    """The place of the rope that a sensor sees, from the car's end [m]."""
     model = campaign.model
     sensors = {one.name: one for one in model.sensors}
     sensor = sensors.get(campaign.channels[column].sensor or "")
     side, height = (sensor.side, sensor.height) if sensor else ("car", -model.shaft.pit)
-    material = position - height if side == "car" else model.rope_length - (run.counterweight.position(t) - height)
-    acceleration = run.trip.acceleration(t)
-    return {
-        "position": position,
-        "velocity": velocity,
-        "speed": np.abs(velocity),
-        "acceleration": acceleration,
-        "material": material,
-    }
+    if side == "car":
+        return np.asarray(run.trip.position(t) - height)
+    return np.asarray(model.rope_length - (run.counterweight.position(t) - height))
 
 
 # -- profiles ----------------------------------------------------------------------------------------
@@ -158,9 +172,11 @@ def profile_share(pieces: list[Piece], coordinate: str) -> float:
         for run in {one.run for one in group}:
             known = [one for one in group if one.run != run]
             profile = _profile(known, coordinate, edges)
-            for place, x in (one.seen(coordinate) for one in group if one.run == run):
-                left += float(((x - profile[np.digitize(place, edges[1:-1])]) ** 2).sum())
-                whole += float((x**2).sum())
+            for one in (one for one in group if one.run == run):
+                place, x = one.seen(coordinate)
+                missed = x - profile[np.digitize(place, edges[1:-1])]
+                left += float(np.sum((missed - missed.mean() if one.floating else missed) ** 2))
+                whole += float(np.sum((x - x.mean() if one.floating else x) ** 2))
     return max(0.0, 1.0 - left / whole) if whole else 0.0
 
 

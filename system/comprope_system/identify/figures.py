@@ -14,6 +14,7 @@ from .clues import Clue
 from .compare import PLACES, ChannelComparison, Comparison, RunComparison
 from .measures import BANDS, ORDERS
 from .phases import phases
+from .residual_force import ResidualForce
 
 Floats = NDArray[np.float64]
 MEASURED, PHASE = SECOND, "#eef2f6"
@@ -128,6 +129,32 @@ def clue_bars(clues: Sequence[Clue]) -> Figure:
     axes.set_yticks(places, [one.coordinate + (f" ({one.peak:.3g} {one.unit})" if one.peak is not None else "") for one in clues])
     axes.set_xlim(0.0, 100.0)
     label(axes, "share of the residual [%]", "")
+    return figure
+
+
+def force_bars(force: ResidualForce) -> Figure:
+    """How much of the rest an unknown force would explain at each place."""
+    figure, (axes,) = panels(1, height=0.32 * len(force.suspects) + 0.9)
+    places = np.arange(len(force.suspects))[::-1]
+    axes.barh(places, [100.0 * one.share for one in force.suspects], color=FIRST, height=0.6)
+    axes.set_yticks(places, [one.place.name for one in force.suspects])
+    axes.set_xlim(0.0, 100.0)
+    label(axes, "share of what is left beyond noise [%]", "")
+    return figure
+
+
+def force_courses(campaign: Campaign, force: ResidualForce) -> Figure:
+    """The best force over time in each run, beside the car's position."""
+    best = force.suspects[0]
+    runs = [run for run in campaign.runs if run.file in best.courses]
+    figure, axes = panels(1, len(runs), 2.0)
+    for k, (axis, run) in enumerate(zip(axes, runs, strict=True)):
+        course = best.courses[run.file]
+        axis.plot(course.time, course.value, color=FIRST, linewidth=1.2)
+        label(axis, "time [s]" if k == len(runs) - 1 else "", f"force [{best.place.unit}]", run.file)
+        beside = axis.twinx()
+        beside.plot(course.time, run.trip.position(course.time), color=GREY, linewidth=1.0, linestyle="--")
+        label(beside, "", "car [m]")
     return figure
 
 

@@ -64,6 +64,7 @@ def diagnose(request: Request) -> Any:
     from .next_run import next_runs, unsettled
     from .point import Point
     from .present import effect_values
+    from .residual_force import residual_force
     from .results import judge, to_json
 
     campaign = _begin(request)
@@ -74,21 +75,23 @@ def diagnose(request: Request) -> Any:
         judged = judge(found, executor, base)
         say("the next run to measure")
         proposals = next_runs(found, executor) if unsettled(found) else []
+        force = residual_force(found.problem, found.none, say) if found.kind == "unknown_effect" else None
     left = [] if found.kind == "adequate" else clues(campaign, judged.refitted.predictions)
     standing = standing_of(campaign, judged.refitted.predictions)
-    _tell(*_diagnosed(judged, left, standing, proposals))
+    _tell(*_diagnosed(judged, left, standing, force, proposals))
     if request.json:
         locked = [{"coordinate": one.coordinate, "share": one.share, "peak": one.peak} for one in left]
-        save_json(request.json, to_json(judged) | {"clues": locked, "next_runs": [one.to_json() for one in proposals[:5]]})
+        told = {"clues": locked, "next_runs": [one.to_json() for one in proposals[:5]]}
+        save_json(request.json, to_json(judged) | told | ({"residual_force": force.to_json()} if force else {}))
     if request.report:
         from .pages import save_diagnosis
 
-        save_diagnosis(request.report, judged, left, standing, proposals)
+        save_diagnosis(request.report, judged, left, standing, force, proposals)
     _end(request)
     return judged
 
 
-def _diagnosed(judged: Any, left: Sequence[Any], standing: float, proposals: Sequence[Any]) -> Iterator[list[str]]:
+def _diagnosed(judged: Any, left: Sequence[Any], standing: float, force: Any, proposals: Sequence[Any]) -> Iterator[list[str]]:
     """What is printed of a diagnosis, paragraph by paragraph."""
     from .clues import hints
     from .results import full_name
@@ -99,6 +102,8 @@ def _diagnosed(judged: Any, left: Sequence[Any], standing: float, proposals: Seq
     yield _listed("About the data:", judged.remarks)
     if found.kind == "unknown_effect":
         yield _listed("What is left:", hints(list(left), standing))
+    if force:
+        yield [*texts.wrapped(f"{force.told()}."), *texts.plain_table(texts.force_table(force, texts.SHOWN))]
     if proposals:
         yield [f"Next run to measure: {proposals[0].told()}."]
     if found.verdict:

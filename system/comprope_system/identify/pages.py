@@ -11,6 +11,7 @@ from .compare import Comparison
 from .journey import Journey
 from .next_run import Proposal, rivals
 from .prune import Without
+from .residual_force import ResidualForce
 from .results import Judged, ranking
 
 HOW = (
@@ -65,7 +66,14 @@ def order_picture(comparison: Comparison) -> Picture:
 # -- diagnosis ---------------------------------------------------------------------------------------
 
 
-def save_diagnosis(path: Path, judged: Judged, clues: Sequence[Clue], standing: float, proposals: Sequence[Proposal]) -> None:
+def save_diagnosis(
+    path: Path,
+    judged: Judged,
+    clues: Sequence[Clue],
+    standing: float,
+    force: ResidualForce | None,
+    proposals: Sequence[Proposal],
+) -> None:
     """The page of `comprope diagnose`."""
     found = judged.diagnosis
     lead = texts.verdict(judged)
@@ -79,6 +87,8 @@ def save_diagnosis(path: Path, judged: Judged, clues: Sequence[Clue], standing: 
     ]
     if clues:
         sections.insert(3, Section("clues", "What the model's error is locked to", clue_blocks(clues, standing)))
+    if force:
+        sections.insert(4, Section("force", "Which force would explain it", force_blocks(judged, force)))
     if proposals:
         sections.append(Section("next", "The next run to measure", next_blocks(judged, proposals)))
     save_page(path, f"{found.campaign.name}: which effect is missing", lead[0], sections)
@@ -123,12 +133,25 @@ def clue_blocks(clues: Sequence[Clue], standing: float) -> list[Block]:
     """Bars and sentences about what the residual follows."""
     method = (
         "Profiles come from all runs but one and are tried on that one; a sinusoid in time or in the sheave's angle may "
-        "begin anywhere in each run. A residual force along the rope is not estimated."
+        "begin anywhere in each run."
     )
     return [
         *(f"{text[0].upper()}{text[1:]}." for text in hints(list(clues), standing)),
         Picture("clues", figures.clue_bars(clues), method),
     ]
+
+
+def force_blocks(judged: Judged, force: ResidualForce) -> list[Block]:
+    """Where an unknown force would act, its course in each run, and what that follows."""
+    method = (
+        "One force at a time, free over the time of each run and smooth; the plant is refitted beside it. Each is judged on "
+        "channels and seconds that were left out of its estimate. Dashed in the next picture: the car's position."
+    )
+    blocks: list[Block] = [f"{force.told()}.", Picture("force", figures.force_bars(force), method), texts.force_table(force)]
+    blocks.append(Picture("courses", figures.force_courses(judged.diagnosis.campaign, force), "The force at the first place."))
+    if force.clues:
+        blocks.append(Picture("force_clues", figures.clue_bars(force.clues), "How much of that force follows what."))
+    return blocks
 
 
 def next_blocks(judged: Judged, proposals: Sequence[Proposal]) -> list[Block]:

@@ -12,6 +12,7 @@ from .compare import ENOUGH, Comparison
 from .diagnose import Diagnosis
 from .journey import Journey
 from .phases import PHASES
+from .residual_force import ResidualForce
 from .results import Judged, biases, full_name, misfit, ranking
 from .values import Value, unit_of
 
@@ -160,6 +161,12 @@ def least_table(judged: Judged) -> Table:
             told = ", ".join(sized(effect, name, value) for name, value in sizes.items())
             rows.append((effect, told, percent(one.visible)))
     return Table(("effect", "seen from about", "not mistaken for the plant"), sorted(rows))
+
+
+def force_table(force: ResidualForce, most: int = 100) -> Table:
+    """Places of an unknown force: what it explains of the rest there, and its size."""
+    rows = [(one.place.name, percent(one.share), one.sized()) for one in force.suspects[:most]]
+    return Table(("if it is", "explains of the rest", "rms"), rows, "Judged on data that were left out of each estimate")
 
 
 def plant_table(found: Diagnosis) -> Table:
