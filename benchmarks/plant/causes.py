@@ -80,10 +80,10 @@ CAUSES: dict[str, Cause] = {
         phase="eccentric_phase",
     ),
     "bearing_friction": tower("known", {"coulomb_torque": Draw(1.0, 30.0)}, coulomb_torque="bearing_coulomb"),
-    "guide_friction": tower("known", {"coulomb_force": Draw(1.0, 80.0)}, coulomb_force="guide_coulomb"),
+    "guide_friction": tower("known", {"coulomb_force": Draw(0.5, 80.0)}, coulomb_force="guide_coulomb"),
     "sheave_damper": tower("known", {"damping": Draw(1e3, 3e5)}, damping="guide_damping"),
     "building_sway": Cause(
-        "known", {"amplitude": Draw(2e-4, 3e-2)}, {"frequency": Draw(0.1, 0.9), "phase": PHASE}, course=ends.building_sway,
+        "known", {"amplitude": Draw(1e-4, 3e-2)}, {"frequency": Draw(0.1, 0.9), "phase": PHASE}, course=ends.building_sway,
     ),
     "attachment_offset": Cause(
         "known", {"car": Draw(1e-3, 3e-2, signed=True), "counterweight": Draw(1e-3, 3e-2, signed=True)},
@@ -97,18 +97,18 @@ CAUSES: dict[str, Cause] = {
     "sensor_delay": Cause("instrument", {"delay": Draw(0.01, 0.1)}, channel=instruments.sensor_delay, columns=LATERAL),
     # outside the library
     "rail_waves": Cause("outside", {"size": Draw(5e-4, 6e-3)}, {"shift": Draw(0.0, 5.0, even=True)}, course=ends.rail_waves),
-    "gusts": Cause("outside", {"size": Draw(5e-4, 1e-2)}, course=ends.gusts, near=("building_sway",)),
+    "gusts": Cause("outside", {"size": Draw(5e-5, 1e-2)}, course=ends.gusts, near=("building_sway",)),
     "counterweight_bounce": Cause(
         "outside", {"frequency": Draw(5.0, 1.0)}, {"damping_ratio": Draw(0.01, 0.1)}, course=ends.counterweight_bounce,
     ),
-    "encoder_scale": Cause("outside", {"excess": Draw(1e-3, 1e-2, signed=True)}, course=ends.encoder_scale),
+    "encoder_scale": Cause("outside", {"excess": Draw(1e-4, 1e-2, signed=True)}, course=ends.encoder_scale),
     "splice": Cause(
         "outside", {"excess": Draw(0.01, 0.2, signed=True)}, {"place": Draw(0.2, 0.8, even=True)}, course=ends.splice,
     ),
     "warming": Cause("outside", {"strain": Draw(4e-6, 2e-4, signed=True)}, course=ends.warming),
     "unbalance": tower("outside", {"unbalance": Draw(0.02, 1.5)}, {"unbalance_phase": PHASE}, near=("sheave_eccentricity",)),
     "brush": tower(
-        "outside", {"brush_stiffness": Draw(10.0, 2e3)},
+        "outside", {"brush_stiffness": Draw(0.5, 1e3)},
         {"brush_height": Draw(1.0, 9.0), "brush_side": Draw(1.0, 1.0, signed=True), "brush_damping": Draw(1.0, 20.0)},
     ),
     "rubbing_wall": tower(
@@ -117,7 +117,7 @@ CAUSES: dict[str, Cause] = {
          "wall_friction": Draw(0.1, 0.4)},
     ),
     "sticky_guide": tower(
-        "outside", {"guide_coulomb": Draw(2.0, 30.0), "breakaway": Draw(4.0, 60.0)}, {"stribeck_velocity": Draw(1e-3, 4e-3)},
+        "outside", {"guide_coulomb": Draw(0.3, 30.0), "breakaway": Draw(0.6, 60.0)}, {"stribeck_velocity": Draw(1e-3, 4e-3)},
         near=("guide_friction",),
     ),
     "jammed_seal": tower("outside", {"seal_stiffness": Draw(5e-3, 0.3)}),
