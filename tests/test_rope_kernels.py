@@ -17,10 +17,11 @@ from comprope.rope.bound import Bound
 from comprope.rope.compose import compiled
 from comprope.rope.contact import contact_radius, friction_law, normal_law
 from comprope.rope.effects import REGISTRY
+from comprope.rope.effects.trial import Trial
 from comprope.rope.elastica import angle
 from comprope.rope.ledger import LOSSES, SPENT
 from comprope.rope.motion import EndMotion, parabola
-from comprope.rope.slots import DECLARED
+from comprope.rope.slots import DECLARED, slot
 from comprope.rope.work import BAND, COLUMNS, CONTACT, FIRST, FRICTION_LOSS, LAST, ROWS, TENSION
 
 from .rope_tower import STUB, TOWER, ride, rope
@@ -467,3 +468,20 @@ def test_tension_is_elastic_and_damped() -> None:
     expected = STUB.rope.axial_stiffness * (length / l - 1.0) + STUB.rope.axial_damping * rate / length / l
     # A strain of 1e-4 is known to 1e-12 of itself.
     assert do.w[TENSION * m : TENSION * m + m - 2] == pytest.approx(expected, rel=1e-9, abs=1e-6)
+
+
+def test_airflow_inward_mirrors_airflow_outward():
+    """A still rope under a rising car: the drag of air that flows outward, and that of air that flows inward as fast."""
+    pushed = []
+    for ratio in (0.3, -0.3):
+        trial = Trial(REGISTRY["air_drag"], nominal=True)
+        trial.p[slot("effects.shaft_airflow.crossflow_ratio")] = ratio
+        trial.at["v"][:] = 0.0
+        trial.at["v"][0] = -2.0
+        pushed.append(trial.forces()[trial.at["n"] + 1 :])
+    outward, inward = pushed
+    side = np.sign(trial.at["q"][trial.at["n"] + 1 :])
+    # Nodes near the ends hang straight, so all of the air's velocity is across the rope.
+    assert outward[10] * side[10] > 0.0
+    assert outward[-12] * side[-12] > 0.0
+    assert np.array_equal(inward, -outward)
