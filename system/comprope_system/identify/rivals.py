@@ -24,7 +24,7 @@ from .starts import best_start
 Say = Callable[[str], None]
 ADEQUATE = 0.85  # misfit per datum below which there is nothing to explain
 REFINED = 4  # hypotheses that are refined on the full model, if no other one leads
-RIVAL = 2.0  # times the best fit's misfit above which a fit is not worth its time
+RIVAL = 1.2  # times the best fit's misfit above which a fit is not worth its time
 PROMISING = 0.1  # of what the best linear look explains: the least that is worth a fit
 NOTICED = 0.01  # of misfit per datum: less than that is no reason for a fit
 SECOND = 0.85  # of the misfit that the best effect may leave if a second one is to be looked for
