@@ -128,12 +128,12 @@ def told(truth: Json, said: Json, errors: str) -> bool:
 
 
 def stated(said: Json) -> float | None:
-    """The probability that goes with the verdict: its effect's share, or that of `adequate` or `unknown_effect`."""
+    """The probability that goes with the verdict: its effect's share, or that of `adequate` or `unknown`."""
     shares = said.get("probabilities", {})
     verdict = said.get("verdict")
     if verdict and said.get("ranking"):
         return next((one["probability"] for one in said["ranking"] if one["effect"] == verdict), None)
-    return shares.get(said.get("verdict_kind"), max(shares.values(), default=None))
+    return shares.get(said.get("verdict_kind", "").removesuffix("_effect"))
 
 
 def line(row: Json) -> str:
@@ -142,11 +142,17 @@ def line(row: Json) -> str:
     mark = "right" if row["first"] else "in group" if row["group"] else "near" if row["near_hit"] else "WRONG"
     level = "" if row["level"] is None else f" at {row['level']:.2f}"
     peak = max(row["shift"].values(), default=0.0)
+    held = f"{digits(row['validate_before'])} -> {digits(row['validate_after'])}"
     return (
         f"{Path(row['campaign']).name} {row['kind']} {' + '.join(row['causes'])}{level}, {peak:.1f} times noise -> {said} "
-        f"({row['probability']}): {mark}; held out {row['validate_before']} -> {row['validate_after']}, left {row['left']}, "
-        f"{row['seconds']:.0f} s {row['errors'][:200]}"
+        f"({digits(row['probability'])}): {mark}; held out {held}, left {digits(row['left'])}, {row['seconds']:.0f} s "
+        f"{row['errors'][:200]}"
     )
+
+
+def digits(value: float | None) -> str:
+    """A number in three digits, if there is one."""
+    return "-" if value is None else f"{value:.3g}"
 
 
 if __name__ == "__main__":

@@ -139,6 +139,13 @@ def test_a_verdict_is_held_against_the_truth(kind, causes, said, first, group):
     assert (right, right or score_campaigns.grouped(truth, said)) == (first, group)
 
 
+def test_the_probability_is_that_of_the_verdict():
+    shares = {"adequate": 0.1, "unknown": 0.2, "a": 0.7}
+    assert score_campaigns.stated({"verdict": None, "verdict_kind": "unknown_effect", "probabilities": shares}) == 0.2
+    assert score_campaigns.stated(SAID | {"ranking": [{"effect": "a", "probability": 0.7}], "probabilities": shares}) == 0.7
+    assert score_campaigns.stated({}) is None
+
+
 def test_a_wrong_sign_must_be_told():
     truth = {"kind": "data", "causes": {"wrong_sign": {}}, "column": "cw_mid"}
     sound = {"verdict": None, "verdict_kind": "adequate", "remarks": []}
