@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
+from comprope.rope.effects import REGISTRY, own
 from comprope.rope.modelfile import with_changes
 from comprope_system.identify import figures, replay, texts
 from comprope_system.identify.campaign import Channel, load_campaign
@@ -20,7 +21,7 @@ from comprope_system.identify.plain import plain
 from comprope_system.identify.point import Point, gathered, submit
 from comprope_system.identify.problem import pose
 from comprope_system.identify.residual_force import residual_force
-from comprope_system.identify.residual_force_places import KEY, probed
+from comprope_system.identify.residual_force_places import KEY, PROBE, probed
 from comprope_system.identify.residual_force_solve import estimate, prior_root
 
 from . import virtual_lift
@@ -88,7 +89,8 @@ def lag(paths, run, grid):
 def twisted(model, run, channels, step):
     """A replay with a pulse of torque on the sheave."""
     pulse = {KEY + "sheave_torque": TORQUE, KEY + "time": WHEN, KEY + "width": WIDTH}
-    return replay.replay(with_changes(probed(model), pulse), run, channels, step)
+    with own.lent(str(PROBE), PROBE.read_text(encoding="utf-8")):
+        return replay.replay(with_changes(probed(model), pulse), run, channels, step)
 
 
 @pytest.fixture(scope="module")
@@ -163,3 +165,8 @@ def test_the_estimate_of_a_known_course():
     assert right.missed < 1.2 * n  # noise alone would leave n
     assert np.corrcoef(right.courses[0], course)[0, 1] > 0.9
     assert wrong.missed > 0.9 * float(r @ r)
+
+
+def test_the_instrument_is_only_lent():
+    """No model, ranking or schema has it afterwards."""
+    assert "residual_force" not in REGISTRY

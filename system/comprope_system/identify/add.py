@@ -19,8 +19,7 @@ from .plain import plain
 from .point import Point, gathered, submit
 from .present import alternatives, grouped, name_of, present, shape_of, short_names
 from .problem import Problem, pose
-from .screen import looks_from
-from .spectrum import frequencies
+from .screen import looks_from, promising_frequencies
 from .starts import best_start
 from .values import Value, effect_results, model_of, plant_results, set_by_runs, widening
 
@@ -110,7 +109,7 @@ def add(campaign: Campaign, effect: str, executor: Executor, say: Say = lambda _
     if effect in grouped(ground.fitted.hypothesis, ground.fitted.effect_coefficients):
         return added(ground, effect, ground.fitted, executor, was_there=True)
     say(f"{effect}, linearised")
-    new, start = _best_start(ground, alternatives(effect, campaign, frequencies(ground.problem, ground.fitted.predictions)))
+    new, start = _best_start(ground, alternatives(effect, campaign, promising_frequencies(ground.problem, ground.fitted)))
     say(f"{effect}, on the full model")
     return added(ground, name_of(new), fit_new(ground, new, start, ground.fitted), executor)
 

@@ -13,7 +13,7 @@ from .clock import clock
 from .phases import phases
 from .point import Predictions
 from .record import LEAST, Record, by_column, records_of
-from .samples import ENOUGH, contradicted, outliers, spread_of_steps
+from .samples import outliers
 
 ALIKE = 0.7  # correlation of measured and predicted that a remark about sign or unit needs
 
@@ -63,23 +63,13 @@ def _near(gain: float) -> bool:
 
 def noise(group: Sequence[Record]) -> Iterator[str]:
     """A stated noise that the steps between samples at rest contradict."""
-    channel, found = group[0].channel, [seen_noise(one) for one in group]
-    known = [one for one in found if one is not None]
-    if not channel.noise or not known:
-        return
-    seen = float(np.median(known)) / channel.scale
-    if contradicted(channel.noise, seen):
+    channel = group[0].channel
+    taken = [one.noise for one in group if channel.noise and one.noise != channel.noise * channel.scale]
+    if channel.noise and taken:
+        seen = float(np.median(taken)) / channel.scale
         told = "more" if seen > channel.noise else "less"
         stated = f"{channel.column}: noise = {channel.noise:g} {channel.unit} is stated"
         yield f"{stated}, but at rest it is {seen:.2g} {channel.unit}, {told} than that; the latter is taken"
-
-
-def seen_noise(record: Record) -> float | None:
-    """Standard deviation [SI] of a channel at rest, from steps between samples; None where it rests too briefly."""
-    rest = record.measured[record.run.rest & np.isfinite(record.measured)]
-    if len(rest) < ENOUGH:
-        return None
-    return spread_of_steps(rest)
 
 
 def drift(group: Sequence[Record]) -> Iterator[str]:

@@ -95,8 +95,7 @@ def splines_of(run: Run) -> Splines:
 
 
 def probed(model: RopeModel) -> RopeModel:
-    """The model with the instrument at hand."""
-    own.admit(str(PROBE), PROBE.read_text(encoding="utf-8"))
+    """The model with the instrument, which has been lent, at hand."""
     table = model.model_dump(exclude_none=True)
     table["own_effects"] = (*model.own_effects, str(PROBE))
     return model_type(table["own_effects"]).model_validate(table)
@@ -107,8 +106,9 @@ def responses(problem: Problem, point: Point, looked: Sequence[Place]) -> list[l
 
     Elements and steps are those of a first look. Raises `SimulationError` where a run cannot be simulated with them.
     """
-    jobs = [_begun(problem, point, run, looked) for run in problem.runs]
-    by_run = [_gathered(problem, run, looked, own) for run, own in zip(problem.runs, jobs, strict=True)]
+    with own.lent(str(PROBE), PROBE.read_text(encoding="utf-8")):
+        jobs = [_begun(problem, point, run, looked) for run in problem.runs]
+        by_run = [_gathered(problem, run, looked, one) for run, one in zip(problem.runs, jobs, strict=True)]
     return [[matrices[k] for matrices in by_run] for k in range(len(looked))]
 
 

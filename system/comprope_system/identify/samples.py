@@ -22,7 +22,7 @@ MEMORY = 0.5  # s, correlation time of the discrepancy
 SHARE = 0.002  # of a channel's rms variation: its discrepancy's standard deviation
 LEAST = 0.15  # of a channel's noise: the same, at least
 OUTLIER = 6.0  # standard deviations from the running median
-ENOUGH = 100  # samples at rest that may contradict a stated noise
+ENOUGH = 40  # samples at rest that may contradict a stated noise
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ def sample_noise(run: Run, channel: Channel, value: Floats) -> float:
     stated, rest = (channel.noise or 0.0) * channel.scale, value[run.rest & np.isfinite(value)]
     if stated:
         seen = spread_of_steps(rest) if len(rest) >= ENOUGH else stated
-        return seen if contradicted(stated, seen) else stated
+        return seen if contradicted(stated, seen, len(rest)) else stated
     seen = spread_of_steps(rest if len(rest) >= 20 else value[np.isfinite(value)])
     return max(seen, 1e-9 + 1e-4 * float(np.nanstd(value)))
 
@@ -90,9 +90,10 @@ def spread_of_steps(value: Floats) -> float:
     return 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / 2.0**0.5
 
 
-def contradicted(stated: float, seen: float) -> bool:
-    """Whether a stated noise is another than what is seen; far less than stated may be coarse digits instead."""
-    return seen > 1.6 * stated or 0.2 * stated < seen < 0.6 * stated
+def contradicted(stated: float, seen: float, count: int) -> bool:
+    """Whether a stated noise is another than that seen in `count` samples; far less than stated may be coarse digits instead."""
+    margin = 1.4 * (1.0 + 2.4 / count**0.5)  # what makes a difference, and two deviations of the estimate
+    return seen > margin * stated or 0.2 * stated < seen < stated / margin
 
 
 def outliers(value: Floats, noise: float, window: int = 11) -> NDArray[np.bool_]:

@@ -12,6 +12,7 @@ from .hypotheses import Hypothesis, hypotheses, of_instruments
 from .linear import by_effect, directions_of, unit_points
 from .point import Point
 from .problem import Problem, solve_in_scale
+from .scan import scanned
 from .spectrum import frequencies
 from .turning import solve_turned
 
@@ -55,7 +56,7 @@ def screen(problem: Problem, origin: Point, none: Fitted, nominal: Fitted | None
     Looks are taken from the fit `none`, and from `nominal` as well where that fit misses much: it is bent for what it lacks.
     """
     present = {key.split(".")[1] for key in origin.effects}
-    known = hypotheses(problem.campaign.model, frequencies(problem, none.predictions))
+    known = hypotheses(problem.campaign.model, promising_frequencies(problem, none))
     tried = [one for one in known if one.effect not in present]
     columns = dict(_effect_columns(problem, origin, tried))
     faults = of_instruments(problem.campaign.channels)
@@ -65,6 +66,12 @@ def screen(problem: Problem, origin: Point, none: Fitted, nominal: Fitted | None
     for look in sorted(looks, key=lambda one: one.strained):
         best.setdefault(look.hypothesis.effect, look)
     return list(best.values())
+
+
+def promising_frequencies(problem: Problem, fitted: Fitted) -> tuple[float, ...]:
+    """Frequencies [Hz] to try for effects that have one: where swaying would explain most, and the residual's peaks."""
+    peaks, swayed = frequencies(problem, fitted.predictions), scanned(problem, fitted, coarseness(problem))
+    return tuple(dict.fromkeys([*swayed, *peaks]))
 
 
 def looks_from(problem: Problem, columns: Mapping[Hypothesis, Floats], none: Fitted, nominal: Fitted | None) -> list[Screened]:

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ... import consent
 from ...declare import Quantity, quantities
@@ -56,6 +57,19 @@ def admit(path: str, text: str) -> None:
         if path in FILES and FILES[path].text != text:
             raise InputError(f"{path}: has changed since it was run; start the program again")
         FILES[path] = _same(text) or OwnFile(text, _run(path, text))
+
+
+@contextmanager
+def lent(path: str, text: str) -> Iterator[None]:
+    """An effect that comprope lends itself for a while; it is forgotten afterwards."""
+    kept: list[tuple[Any, dict[str, Any]]] = [(table, dict(table)) for table in (REGISTRY, DECLARED, FILES)]
+    admit(path, text)
+    try:
+        yield
+    finally:
+        for table, before in kept:
+            table.clear()
+            table.update(before)
 
 
 def _same(text: str) -> OwnFile | None:
