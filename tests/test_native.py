@@ -174,7 +174,8 @@ def test_a_lost_step_says_where_and_when(pair: Pair) -> None:
     pair.start(
         {
             "shaft.height": 10.0, "rope.element_length": 0.1, "effects.building_sway.amplitude": 5.0,
-            "effects.building_sway.frequency": 20.0, "counterweight_position": 10.0, "sheave.mass": 5.0, "rope.mass_per_length": 0.1,
+            "effects.building_sway.frequency": 20.0, "counterweight_position": 10.0, "sheave.mass": 5.0,
+            "rope.mass_per_length": 0.1,
         }
     )  # fmt: skip
     while not pair.oracle.run.failure and pair.oracle.run.time < 1.0:
