@@ -126,12 +126,12 @@ def test_derivatives_are_those_of_whole_runs(name: str) -> None:
     What is left, up to 0.5 %, is the quadrature points of the contact that begin to touch within the difference of runs.
     What a converged step leaves unbalanced, 1e-8 m, shows in forces, and in the turning of a sheave that bending
     and weight hardly turn: steps converged to 1e-11 m leave 0.15 % there. With such steps the pit's depth, which moves nodes
-    over the contact's quadrature points, stays below 0.7 % too, and the forces below 6 and 2.4 %.
+    over the contact's quadrature points, stays below 0.7 % too, and forces below 6 % by bending and 2.4 % by an offset.
     """
     left = errors(ABSENT, name, exact=True)
     assert max(left[column] for column in MOTIONS[:3]) < (0.015 if name == "pit" else 0.007)
-    assert left["turning"] < (0.025 if name in ("bending", "sheave mass") else 0.007)
-    assert max(left[column] for column in FORCES) < {"bending": 0.07, "drag": 0.06, "offset": 0.035}.get(name, 0.02)
+    assert left["turning"] < (0.025 if name in ("bending", "sheave mass", "pit") else 0.007)
+    assert max(left[column] for column in FORCES) < {"bending": 0.07, "drag": 0.06, "offset": 0.035, "pit": 0.03}.get(name, 0.02)
 
 
 @pytest.mark.parametrize("name", DIRECTIONS)

@@ -77,8 +77,10 @@ def part(run: Run, channel: Channel, value: Floats, visible: NDArray[np.bool_]) 
 def sample_noise(run: Run, channel: Channel, value: Floats) -> float:
     """Standard deviation [SI] of one sample: as stated unless the rest before the trip contradicts that, or as seen there."""
     stated, rest = (channel.noise or 0.0) * channel.scale, value[run.rest & np.isfinite(value)]
+    if stated and len(rest) < ENOUGH:
+        return stated
     if stated:
-        seen = spread_of_steps(rest) if len(rest) >= ENOUGH else stated
+        seen = spread_of_steps(rest)
         return seen if contradicted(stated, seen, len(rest)) else stated
     seen = spread_of_steps(rest if len(rest) >= 20 else value[np.isfinite(value)])
     return max(seen, 1e-9 + 1e-4 * float(np.nanstd(value)))
