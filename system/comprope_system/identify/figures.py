@@ -18,6 +18,7 @@ from .residual_force import ResidualForce
 
 Floats = NDArray[np.float64]
 MEASURED, PHASE = SECOND, "#eef2f6"
+WHAT = {"N": "force", "N.m": "torque", "N/m": "push", "m": "motion"}  # by its unit
 
 
 def overlay(campaign: Campaign, run: RunComparison, others: Mapping[str, RunComparison] | None = None) -> Figure:
@@ -151,7 +152,7 @@ def force_courses(campaign: Campaign, force: ResidualForce) -> Figure:
     for k, (axis, run) in enumerate(zip(axes, runs, strict=True)):
         course = best.courses[run.file]
         axis.plot(course.time, course.value, color=FIRST, linewidth=1.2)
-        label(axis, "time [s]" if k == len(runs) - 1 else "", f"force [{best.place.unit}]", run.file)
+        label(axis, "time [s]" if k == len(runs) - 1 else "", f"{WHAT[best.place.unit]} [{best.place.unit}]", run.file)
         beside = axis.twinx()
         beside.plot(course.time, run.trip.position(course.time), color=GREY, linewidth=1.0, linestyle="--")
         label(beside, "", "car [m]")
