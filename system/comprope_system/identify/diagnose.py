@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .campaign import Campaign
-from .errors_of import nrmse
 from .fit import Fitted, evaluate, refine
 from .hypotheses import NUISANCES, Hypothesis
 from .point import Point, Predictions, gathered, submit
@@ -132,10 +131,3 @@ def _cosine(a: Floats, b: Floats) -> float:
     """Largest cosine between two spans of directions."""
     qa, qb = (np.linalg.qr(one)[0] for one in (a, b))
     return float(np.linalg.svd(qa.T @ qb, compute_uv=False)[0])
-
-
-def errors(campaign: Campaign, fitted: Fitted, executor: Executor) -> tuple[float, float]:
-    """Errors of a fitted point on the fit runs and on the validate runs."""
-    validate = campaign.of_role("validate")
-    held = gathered(validate, submit(campaign, validate, fitted.point, executor))
-    return nrmse(campaign, campaign.of_role("fit"), fitted.predictions), nrmse(campaign, validate, held)

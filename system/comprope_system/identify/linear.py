@@ -7,7 +7,7 @@ from math import pi, remainder
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.rope.effects import REGISTRY, RopeModel
+from comprope.rope.effects import RopeModel
 from comprope.rope.model import values_of
 from comprope.rope.modelfile import with_changes
 from comprope.rope.slots import DECLARED
@@ -17,7 +17,7 @@ from .hypotheses import CLOCK, NUISANCES, Direction, Hypothesis
 from .point import Point, Predictions
 from .problem import Problem
 from .replay import referred
-from .sensitivities import replay_with_sensitivities
+from .sensitivities import replay_with_sensitivities, sticking
 
 Floats = NDArray[np.float64]
 Tangents = tuple[dict[str, Floats], dict[int, dict[str, Floats]]]
@@ -48,12 +48,6 @@ def _merged(
     first: Mapping[str, Mapping[str, float]], second: Mapping[str, Mapping[str, float]]
 ) -> dict[str, Mapping[str, float]]:
     return {file: {**first.get(file, {}), **second.get(file, {})} for file in dict.fromkeys([*first, *second])}
-
-
-def misfits(problem: Problem, hypothesis: Hypothesis | None, tried: Sequence[Floats], base: Point) -> list[float]:
-    """Sums of squares at some coefficients (k,); infinite where the model cannot be simulated."""
-    found = problem.attempts(*(point_of(hypothesis, list(x), base) for x in tried))
-    return [float(np.sum((problem.data - problem.whitened(at)) ** 2)) if at else float("inf") for at in found]
 
 
 def linearised(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> tuple[Predictions, Floats]:
@@ -100,9 +94,8 @@ def tangents(
         change = {key: _apart(key, value, values.get(key, DECLARED[key].neutral)) / step for key, value in moved.items()}
         if amounts := {key: amount for key, amount in change.items() if amount}:
             directions[str(k)] = amounts
-    # Wires that stick and slip change the rope's stiffness within a step: with the older factor derivatives may grow without end.
-    exact = any(REGISTRY[key.split(".")[1]].states for key in values if key.startswith("effects."))
-    shown, by = replay_with_sensitivities(model, replace(run, changes=changes), channels, directions, exact=exact)
+    moved_run = replace(run, changes=changes)
+    shown, by = replay_with_sensitivities(model, moved_run, channels, directions, exact=sticking(values))
     return shown.values, {int(k): one for k, one in by.items()}
 
 

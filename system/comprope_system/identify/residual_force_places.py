@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import BSpline
 
-from comprope.rope.effects import REGISTRY, RopeModel, model_type, own
+from comprope.rope.effects import RopeModel, model_type, own
 from comprope.rope.model import values_of
 from comprope.rope.modelfile import with_changes
 
@@ -22,7 +22,7 @@ from .point import Point
 from .problem import Problem
 from .replay import STEP, Floats
 from .screen import coarseness
-from .sensitivities import replay_with_sensitivities
+from .sensitivities import replay_with_sensitivities, sticking
 
 PROBE = Path(__file__).with_name("residual_force_probe.py")
 KEY = "effects.residual_force."
@@ -141,6 +141,5 @@ def answers(
         for k, (place, time, width) in enumerate(pulses)
     }
     here = values_of(with_changes(model, run.changes, run.file))
-    exact = any(REGISTRY[key.split(".")[1]].states for key in here if key.startswith("effects."))
-    by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at, exact=exact)[1]
+    by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at, exact=sticking(here))[1]
     return [by[name] for name in directions]

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from comprope.errors import SimulationError
-from comprope.rope.effects import RopeModel
+from comprope.rope.effects import REGISTRY, RopeModel
 from comprope.rope.modelfile import with_changes
 from comprope.rope.sensitivity import Direction, SensitiveRope
 
@@ -49,6 +49,14 @@ def replay_with_sensitivities(
         name: referred({column: _through(changed, column, run, one) for column, one in own.items()}, run, channels)
         for name, own in derivatives.items()
     }
+
+
+def sticking(values: Mapping[str, float]) -> bool:
+    """Whether a model of these values has effects with a history, which need `exact` derivatives.
+
+    Wires that stick and slip change the rope's stiffness within a step: with the older factor derivatives may grow without end.
+    """
+    return any(REGISTRY[key.split(".")[1]].states for key in values if key.startswith("effects."))
 
 
 def _through(model: RopeModel, column: str, run: Run, derivative: Floats) -> Floats:

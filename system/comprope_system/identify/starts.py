@@ -3,12 +3,14 @@
 It also shares out among an effect's amplitudes what one of them does alone: dry and viscous friction look much the same to it.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from .fit import Fitted
 from .hypotheses import NUISANCES, Hypothesis
-from .linear import misfits
+from .linear import point_of
 from .point import Point
 from .problem import Problem
 
@@ -69,3 +71,9 @@ def alone(hypothesis: Hypothesis, x: Floats, new: int | None = None) -> list[Flo
     if polar or len(sized) < 2:
         return []
     return [np.where(np.isin(np.arange(len(x)), [j for j in sized if j != k]), 0.0, x) for k in sized if x[k]]
+
+
+def misfits(problem: Problem, hypothesis: Hypothesis | None, tried: Sequence[Floats], base: Point) -> list[float]:
+    """Sums of squares at some coefficients (k,); infinite where the model cannot be simulated."""
+    found = problem.attempts(*(point_of(hypothesis, list(x), base) for x in tried))
+    return [float(np.sum((problem.data - problem.whitened(at)) ** 2)) if at else float("inf") for at in found]
