@@ -1,6 +1,7 @@
 """How `comprope diagnose` does on campaigns whose truth is known: one JSON line each, then a table per cause and size.
 
     python benchmarks/score_campaigns.py FOLDER... [--out results/scores.jsonl] [--jobs 2]
+    python benchmarks/score_campaigns.py FOLDER... --blind                   (the effects that are hidden are ruled out)
     python benchmarks/score_campaigns.py --out results/scores.jsonl          (the table of what is there)
 
 A FOLDER is a campaign, or holds campaigns. The command runs as a user would run it and does not see the truth: the files are
@@ -22,7 +23,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from score_table import table
+from score_table import TAKEN_OUT, table
 
 Json = dict[str, Any]
 NAMED = ("wrong_sign", "wrong_unit")  # faults of data that must be told, not only survived
@@ -34,6 +35,7 @@ def main() -> None:
     options.add_argument("folders", nargs="*", type=Path)
     options.add_argument("--out", type=Path, default=Path("results/scores.jsonl"))
     options.add_argument("--jobs", type=int, default=2)
+    options.add_argument("--blind", action="store_true", help="leave the hidden effects out of the library: unknown is right")
     options.add_argument("--minutes", type=float, default=30.0, help="after which a diagnosis counts as failed")
     chosen = options.parse_args()
     rows = read(chosen.out)
@@ -42,7 +44,7 @@ def main() -> None:
     for folder in campaigns(chosen.folders):
         if str(folder) in done:
             continue
-        rows.append(score(folder, chosen.jobs, 60.0 * chosen.minutes))
+        rows.append(score(folder, chosen.jobs, 60.0 * chosen.minutes, chosen.blind))
         with chosen.out.open("a", encoding="utf-8") as file:
             file.write(json.dumps(rows[-1]) + "\n")
         print(line(rows[-1]), flush=True)
@@ -63,11 +65,12 @@ def campaigns(folders: Iterable[Path]) -> list[Path]:
     ]
 
 
-def score(folder: Path, jobs: int, limit: float) -> Json:
-    """Diagnose one campaign and hold what was said against the truth."""
+def score(folder: Path, jobs: int, limit: float, blind: bool) -> Json:
+    """Diagnose one campaign and hold what was said against the truth; `blind` to what is hidden."""
     truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
     began = time.perf_counter()
-    status, said, errors = diagnosed(folder, jobs, limit)
+    status, said, errors = diagnosed(folder, jobs, limit, list(truth["causes"]) if blind else [])
+    truth |= {"kind": TAKEN_OUT} if blind else {}
     top = (said.get("ranking") or [{}])[0]
     was = said.get("errors", {})
     kind = said.get("verdict_kind", "none")
@@ -89,12 +92,13 @@ def score(folder: Path, jobs: int, limit: float) -> Json:
     }  # fmt: skip
 
 
-def diagnosed(folder: Path, jobs: int, limit: float) -> tuple[int, Json, str]:
-    """Exit status, JSON and error text of the command, run on a copy without the truth."""
+def diagnosed(folder: Path, jobs: int, limit: float, without: list[str]) -> tuple[int, Json, str]:
+    """Exit status, JSON and error text of the command, run on a copy without the truth, and `without` some effects."""
     with tempfile.TemporaryDirectory() as room:
         copy, out = Path(room) / "campaign", Path(room) / "said.json"
         shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("truth.json"))
         command = [sys.executable, "-m", "comprope_system.cli", "diagnose", str(copy), "--json", str(out), "--jobs", str(jobs)]
+        command += [word for name in without for word in ("--without", name)]
         try:
             ended = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
         except subprocess.TimeoutExpired:
@@ -108,7 +112,7 @@ def first(truth: Json, said: Json) -> bool:
     kind, hidden = said.get("verdict_kind"), truth["kind"]
     if hidden in ("nothing", "data"):
         return kind == "adequate" and not set(NAMED) & set(truth["causes"])
-    if hidden == "outside":
+    if hidden in ("outside", TAKEN_OUT):
         return kind == "unknown_effect"
     return said.get("verdict") in truth["causes"]
 

@@ -7,6 +7,7 @@ from typing import Any
 
 Json = dict[str, Any]
 VISIBLE = 3.0  # times the noise that a cause must shift some channel by
+TAKEN_OUT = "taken out"  # kind of a cause that the library has but was told to rule out
 SIZES = ("barely", "middle", "large")
 
 
@@ -56,6 +57,7 @@ def totals(rows: Sequence[Json]) -> list[str]:
         ("false alarm, nothing hidden", of(rows, "nothing"), "alarm"),
         ("none of the known, recalled where a channel shifts by over 3 times its noise", strange, "first"),
         ("called an effect of like nature instead", strange, "near_hit"),
+        ("the same with the cause taken out of the library", of(seen, TAKEN_OUT), "first"),
         ("faults of data survived or told", of(rows, "data"), "group"),
         ("commands that failed", rows, "failed"),
     ]

@@ -16,6 +16,7 @@ from comprope_system.identify.add import beside_the_model, heading, prepare
 from comprope_system.identify.campaign import load_campaign
 from comprope_system.identify.clues import clues
 from comprope_system.identify.compare import compare
+from comprope_system.identify.diagnose import diagnose
 from comprope_system.identify.jobs import threads
 from comprope_system.identify.journey import journey
 from comprope_system.identify.measures import ORDERS
@@ -97,8 +98,15 @@ def test_the_result_has_the_form_that_was_agreed(judged):
     assert sum(found["probabilities"].values()) == pytest.approx(1.0)
 
 
+def test_with_the_effect_ruled_out_none_of_the_known_explains_it(campaign, executor):
+    """As if eccentricity were in nobody's library."""
+    found = diagnose(campaign, executor, without=["sheave_eccentricity"])
+    assert (found.verdict, found.kind) == (None, "unknown_effect") and found.probabilities["unknown"] > 0.9
+    assert "sheave_eccentricity" not in found.probabilities
+
+
 def test_without_the_effect_the_residual_points_to_the_sheave(judged):
-    """As if eccentricity were in nobody's library: what is left is locked to the sheave's angle, once a turn."""
+    """What is left is locked to the sheave's angle, once a turn."""
     first = clues(judged.diagnosis.campaign, judged.refitted.predictions)[0]
     assert first.coordinate == "the sheave's angle" and first.peak == pytest.approx(1.0, abs=0.05)
     assert first.share > 0.3

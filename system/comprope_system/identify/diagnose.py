@@ -4,8 +4,9 @@ One linearisation about the model file gives every effect's expected size and wh
 plant parameters refitted beside it. The most promising are then refined on the full model.
 """
 
+from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,13 +59,15 @@ class Diagnosis:
     kind: str
 
 
-def diagnose(campaign: Campaign, executor: Executor, say: Say = lambda _: None, base: Point | None = None) -> Diagnosis:
-    """Rank all effects against a campaign; `base` has effects that are in the model already."""
+def diagnose(
+    campaign: Campaign, executor: Executor, say: Say = lambda _: None, base: Point | None = None, without: Sequence[str] = ()
+) -> Diagnosis:
+    """Rank all effects against a campaign, `without` some; `base` has effects that are in the model already."""
     origin = base or Point()
     runs = campaign.of_role("fit")
     say("the model as it is")
     nominal = gathered(runs, submit(campaign, runs, origin, executor))
-    problem = pose(campaign, runs, executor, nominal)
+    problem = replace(pose(campaign, runs, executor, nominal), ruled_out=frozenset(without))
     say("plant parameters")
     begun = evaluate(problem, None, np.zeros(len(NUISANCES)), origin)
     none = refine(problem, None, begun.coefficients, origin, begun=begun)

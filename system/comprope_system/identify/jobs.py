@@ -27,13 +27,14 @@ PAGES = (".html", ".htm")
 
 @dataclass(frozen=True)
 class Request:
-    """The campaign's folder, files to write, and processes (all cores if None)."""
+    """The campaign's folder, files to write, processes (all cores if None), and effects that a diagnosis rules out."""
 
     campaign: Path
     json: Path | None = None
     report: Path | None = None
     model: Path | None = None
     jobs: int | None = None
+    without: tuple[str, ...] = ()
 
 
 def compare(request: Request) -> Any:
@@ -63,14 +64,15 @@ def diagnose(request: Request) -> Any:
     from .diagnose import diagnose as diagnosis_of
     from .next_run import next_runs, unsettled
     from .point import Point
-    from .present import effect_values
+    from .present import effect_values, require_effects
     from .residual_force import residual_force
     from .results import judge, to_json
 
     campaign = _begin(request)
+    require_effects(request.without)
     base = Point(effects=effect_values(campaign.model))
     with progress() as say, processes(request.jobs) as executor:
-        found = diagnosis_of(campaign, executor, say, base)
+        found = diagnosis_of(campaign, executor, say, base, request.without)
         say("the runs held out")
         judged = judge(found, executor, base)
         say("the next run to measure")

@@ -106,6 +106,14 @@ def shape_of(one: Hypothesis, longest: float) -> Hypothesis | None:
     return Hypothesis(one.effect, (direction,), base=value)
 
 
+def require_effects(names: Sequence[str]) -> None:
+    """Raise InputError, for all at once, if some of the names are no effects."""
+    known = [*REGISTRY, *INSTRUMENT]
+    problems = [f"{name}: not an effect; {suggestion(name, known)}" for name in names if name not in known]
+    if problems:
+        raise InputError("; ".join(problems))
+
+
 def alternatives(effect: str, campaign: Campaign, frequencies: tuple[float, ...]) -> list[Hypothesis]:
     """The ways in which a named effect may act; an instrument's fault on every channel, or on one: `sensor_gain.cw_low`.
 

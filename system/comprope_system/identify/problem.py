@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 class Problem:
     """Some runs of a campaign, binned and weighed. `data` (N,) is whitened; its expected square is N.
 
-    `held` are plant parameters that stay as runs state them.
+    `held` are plant parameters that stay as runs state them, `ruled_out` effects that are not asked about.
     """
 
     campaign: Campaign
@@ -33,6 +33,7 @@ class Problem:
     data: Floats
     executor: Executor
     held: frozenset[str] = frozenset()
+    ruled_out: frozenset[str] = frozenset()
 
     def held_back(self, point: Point) -> Point:
         """The point without the plant parameters that are held."""

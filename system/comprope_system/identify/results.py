@@ -59,6 +59,7 @@ def to_json(judged: Judged) -> dict[str, Any]:
             for name, one in (("as_it_stands", judged.before), ("plant_refitted", judged.refitted))
         },
         "plant": {key: one.to_json() for key, one in plant(diagnosis).items()},
+        "ruled_out": sorted(diagnosis.problem.ruled_out),
         "data": count,
         "remarks": list(judged.remarks),
     }  # fmt: skip

@@ -87,12 +87,14 @@ def verdict(judged: Judged) -> list[str]:
     """What is missing, in sentences a newcomer understands."""
     found = judged.diagnosis
     surely = found.probabilities
+    ruled_out = [f"Ruled out beforehand: {', '.join(sorted(out))}."] if (out := found.problem.ruled_out) else []
     if found.verdict:
-        return [_missing(judged), *_twins(found)]
+        return [_missing(judged), *_twins(found), *ruled_out]
     if found.kind == "adequate":
         told = "Nothing is missing: with its plant parameters refitted the model is as near as noise allows"
-        return [f"{told} (probability {chance(surely['adequate'])})."]
+        return [f"{told} (probability {chance(surely['adequate'])}).", *ruled_out]
     return [
+        *ruled_out,
         f"Something is missing, and none of the known effects explains it (probability {chance(surely['unknown'])}).",
         "See what the rest is locked to: that is the clue.",
     ]
