@@ -154,11 +154,10 @@ def _shaped(ground: Ground, new: Hypothesis, old: list[Hypothesis], fitted: Fitt
 def added(ground: Ground, effect: str, fitted: Fitted, executor: Executor, was_there: bool = False) -> Added:
     """Make the model of a fit and judge it on all runs."""
     campaign, scale = ground.campaign, widening(fitted, len(ground.problem.data))
-    deviations = scale * fitted.deviation[len(NUISANCES) :]
     model = model_of(campaign, fitted)
     return Added(
         effect, was_there, ground, fitted, model,
-        effect_results(fitted.hypothesis, fitted.effect_coefficients, list(deviations)),
+        effect_results(fitted, scale),
         plant_results(campaign, fitted, scale),
         compare(campaign, executor),
         compare(replace(campaign, model=model_of(campaign, ground.fitted)), executor, beside_the_model(ground.fitted)),

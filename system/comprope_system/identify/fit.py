@@ -29,15 +29,15 @@ class Fitted:
     """The best point of a hypothesis (None: nothing is missing), its predictions and how well they agree.
 
     `misfit` is the sum of squares in units of noise and discrepancy, `penalty` that of coefficients over priors;
-    `coefficients` are plant first, then the effect; `deviation` their standard deviations; `by` (N, coefficients) are
-    the derivatives there.
+    `coefficients` are plant first, then the effect; `covariance` theirs; `by` (N, coefficients) are the
+    derivatives there.
     """
 
     hypothesis: Hypothesis | None
     point: Point
     predictions: Predictions
     coefficients: Floats
-    deviation: Floats
+    covariance: Floats
     by: Floats
     misfit: float
     penalty: float
@@ -70,7 +70,7 @@ def refine(
         # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
         scale = scale_of(best.misfit, count)
         solution = solve(problem.data - problem.whitened(best.predictions), best.by, directions, best.coefficients, scale)
-        best = replace(best, deviation=solution.deviation)
+        best = replace(best, covariance=solution.covariance)
         if solution.misfit > rival * (1.0 if done >= TRUSTED else HOPELESS):
             break
         enough, promised, before = ENOUGH * scale * count, best.cost(scale) - solution.cost, best.cost(scale)
@@ -81,7 +81,7 @@ def refine(
             break
         fresh = gain < max(enough, KEPT * promised)
         if fresh:
-            best = replace(evaluate(problem, hypothesis, best.coefficients, base), deviation=best.deviation)
+            best = replace(evaluate(problem, hypothesis, best.coefficients, base), covariance=best.covariance)
     return best
 
 
@@ -95,7 +95,7 @@ def _fitted(
 ) -> Fitted:
     residual = problem.data - problem.whitened(predictions)
     penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, directions_of(hypothesis), strict=True)))
-    point, none = point_of(hypothesis, list(x), base), np.zeros(len(x))
+    point, none = point_of(hypothesis, list(x), base), np.zeros((len(x), len(x)))
     return Fitted(hypothesis, point, predictions, x, none, by, float(residual @ residual), penalty)
 
 
@@ -106,7 +106,7 @@ def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, s
         tried = _stepped(problem, best, [share * step for share in shares], base)
         found = min(tried, key=lambda one: one.cost(scale), default=best)
         if found.cost(scale) < best.cost(scale):
-            return replace(found, deviation=solution.deviation)
+            return replace(found, covariance=solution.covariance)
     return best
 
 

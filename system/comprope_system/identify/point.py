@@ -37,7 +37,7 @@ class Point:
         base = values_of(model) | {key: value for key, value in run.changes.items() if isinstance(value, (int, float))}
         changed: dict[str, Any] = dict(run.changes) | dict(self.effects)
         for key, shift in self.shifts.get(run.file, {}).items():
-            changed[key] = changed.get(key, 0.0) + shift
+            changed[key] = changed.get(key, base.get(key, 0.0)) + shift
         if late := self.plant.get(CLOCK, 0.0):
             known = model.effects.sensor_delay or {}
             changed |= {f"effects.sensor_delay.{column}": known.get(column, 0.0) + late for column in run.values}

@@ -88,13 +88,13 @@ def pose(campaign: Campaign, runs: Sequence[Run], executor: Executor, nominal: P
 class Solution:
     """Coefficients of directions, the cost (misfit and priors in its scale), and misfit alone.
 
-    `deviation` are the coefficients' standard deviations, with the discrepancy as if it were noise.
+    `covariance` (k, k) is that of the coefficients, with the discrepancy as if it were noise.
     """
 
     coefficients: Floats
     cost: float
     misfit: float
-    deviation: Floats
+    covariance: Floats
 
 
 def solve(
@@ -112,8 +112,8 @@ def solve(
     left = residual - matrix @ (found - start)
     misfit, penalty = float(left @ left), float(((found / prior) ** 2).sum())
     curvature = np.eye(len(prior)) + prior[:, None] * (matrix.T @ matrix) * prior
-    deviation = prior * np.sqrt(np.diag(np.linalg.inv(curvature)))
-    return Solution(found, misfit + scale * penalty, misfit, deviation)
+    covariance = prior[:, None] * np.linalg.inv(curvature) * prior
+    return Solution(found, misfit + scale * penalty, misfit, covariance)
 
 
 def solve_in_scale(residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats) -> Solution:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import exp, hypot, isfinite
 
 import numpy as np
+from numpy.typing import NDArray
 
 from comprope.declare import Quantity, quantities
 from comprope.rope.effects import REGISTRY, RopeModel
@@ -48,25 +49,26 @@ def widening(fitted: Fitted, count: int) -> float:
     return float(np.sqrt(scale_of(fitted.misfit, count)))
 
 
-def effect_results(hypothesis: Hypothesis | None, coefficients: Sequence[float], deviations: Sequence[float]) -> dict[str, Value]:
-    """Every value that a hypothesis sets, with its uncertainty, by its key in the model file."""
+def effect_results(fitted: Fitted, scale: float = 1.0) -> dict[str, Value]:
+    """Every value that the fit's effects set, with its uncertainty, by its key in the model file."""
     found: dict[str, Value] = {}
-    at = 0
-    for part, own in hypothesis.shares(list(coefficients)) if hypothesis else []:
-        spread = list(deviations[at : at + len(own)])
+    at = len(NUISANCES)
+    for part, own in fitted.hypothesis.shares(fitted.effect_coefficients) if fitted.hypothesis else []:
+        covariance = scale**2 * fitted.covariance[at : at + len(own), at : at + len(own)]
         at += len(own)
         values = part.parameters(own)
-        found |= {key: _value(key, value, _deviation(part, own, spread, key)) for key, value in values.items()}
+        found |= {key: _value(key, value, _deviation(part, own, covariance, key)) for key, value in values.items()}
     return found
 
 
-def _deviation(part: Hypothesis, own: Sequence[float], spread: Sequence[float], key: str) -> float:
+def _deviation(part: Hypothesis, own: Sequence[float], covariance: NDArray[np.float64], key: str) -> float:
+    """Standard deviation of a value by the derivatives of it by the coefficients, to first order."""
+    by = np.array([one.changes.get(key, 0.0) for one in part.directions])
     if part.polar and key in part.polar:
-        (c, s), (dc, ds), size = own[:2], spread[:2], part.directions[0].changes[part.polar[0]]
-        length = max(hypot(c, s), 1e-300)
-        along, across = hypot(c * dc, s * ds) / length, hypot(s * dc, c * ds) / length
-        return size * along if key == part.polar[0] else across / length
-    return hypot(*(d * one.changes.get(key, 0.0) for d, one in zip(spread, part.directions, strict=True)))
+        (c, s), length = own[:2], max(hypot(*own[:2]), 1e-300)
+        size = part.directions[0].changes[part.polar[0]]
+        by[:2] = (size * c / length, size * s / length) if key == part.polar[0] else (-s / length**2, c / length**2)
+    return float(np.sqrt(max(by @ covariance @ by, 0.0)))
 
 
 def _value(key: str, value: float, deviation: float) -> Value:
@@ -92,7 +94,7 @@ def plant_results(campaign: Campaign, fitted: Fitted, scale: float = 1.0) -> dic
     """The refitted plant by model key; values of the model file, which a run may replace."""
     base, found = values_of(campaign.model) | {CLOCK: 0.0}, {}
     for k, one in enumerate(NUISANCES):
-        c, deviation = float(fitted.coefficients[k]), scale * float(fitted.deviation[k])
+        c, deviation = float(fitted.coefficients[k]), scale * float(fitted.covariance[k, k]) ** 0.5
         place = (lambda x, at=base[one.name]: at * exp(x)) if one.relative else (lambda x, at=base[one.name]: at + x)
         least = 0.0 if one.changes else -float("inf")
         value, low, high = (max(place(c + x), least) for x in (0.0, -CONFIDENCE * deviation, CONFIDENCE * deviation))
