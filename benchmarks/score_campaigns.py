@@ -23,6 +23,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from score_added import added
 from score_table import TAKEN_OUT, table
 
 Json = dict[str, Any]
@@ -36,6 +37,7 @@ def main() -> None:
     options.add_argument("--out", type=Path, default=Path("results/scores.jsonl"))
     options.add_argument("--jobs", type=int, default=2)
     options.add_argument("--blind", action="store_true", help="leave the hidden effects out of the library: unknown is right")
+    options.add_argument("--add", action="store_true", help="add the effect that the verdict names, if it is right")
     options.add_argument("--minutes", type=float, default=30.0, help="after which a diagnosis counts as failed")
     chosen = options.parse_args()
     rows = read(chosen.out)
@@ -44,7 +46,7 @@ def main() -> None:
     for folder in campaigns(chosen.folders):
         if str(folder) in done:
             continue
-        rows.append(score(folder, chosen.jobs, 60.0 * chosen.minutes, chosen.blind))
+        rows.append(score(folder, chosen.jobs, 60.0 * chosen.minutes, chosen.blind, chosen.add))
         with chosen.out.open("a", encoding="utf-8") as file:
             file.write(json.dumps(rows[-1]) + "\n")
         print(line(rows[-1]), flush=True)
@@ -65,12 +67,24 @@ def campaigns(folders: Iterable[Path]) -> list[Path]:
     ]
 
 
-def score(folder: Path, jobs: int, limit: float, blind: bool) -> Json:
-    """Diagnose one campaign and hold what was said against the truth; `blind` to what is hidden."""
+def score(folder: Path, jobs: int, limit: float, blind: bool, add: bool) -> Json:
+    """Diagnose one campaign and hold what was said against the truth; `blind` to what is hidden. `add` what is found."""
     truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
-    began = time.perf_counter()
-    status, said, errors = diagnosed(folder, jobs, limit, list(truth["causes"]) if blind else [])
     truth |= {"kind": TAKEN_OUT} if blind else {}
+    with tempfile.TemporaryDirectory() as room:
+        copy = Path(room) / "campaign"
+        shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("truth.json"))
+        began = time.perf_counter()
+        status, said, errors = diagnosed(copy, jobs, limit, list(truth["causes"]) if blind else [])
+        seconds = time.perf_counter() - began
+        row = scored(folder, truth, status, said, errors) | {"seconds": seconds}
+        if add and said.get("verdict") and first(truth, said):
+            row["added"] = added(copy, said, truth, jobs, limit)
+        return row
+
+
+def scored(folder: Path, truth: Json, status: int, said: Json, errors: str) -> Json:
+    """What was said, held against the truth."""
     top = (said.get("ranking") or [{}])[0]
     was = said.get("errors", {})
     kind = said.get("verdict_kind", "none")
@@ -88,23 +102,20 @@ def score(folder: Path, jobs: int, limit: float, blind: bool) -> Json:
         "validate_after": top.get("validate_error_after") if physical else was.get("plant_refitted", {}).get("validate"),
         "ranking": [(one["effect"], one["probability"], one.get("misfit_per_datum")) for one in said.get("ranking", [])[:4]],
         "indistinguishable": said.get("indistinguishable", []), "remarks": said.get("remarks", []),
-        "seconds": time.perf_counter() - began,
     }  # fmt: skip
 
 
-def diagnosed(folder: Path, jobs: int, limit: float, without: list[str]) -> tuple[int, Json, str]:
-    """Exit status, JSON and error text of the command, run on a copy without the truth, and `without` some effects."""
-    with tempfile.TemporaryDirectory() as room:
-        copy, out = Path(room) / "campaign", Path(room) / "said.json"
-        shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("truth.json"))
-        command = [sys.executable, "-m", "comprope_system.cli", "diagnose", str(copy), "--json", str(out), "--jobs", str(jobs)]
-        command += [word for name in without for word in ("--without", name)]
-        try:
-            ended = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
-        except subprocess.TimeoutExpired:
-            return -1, {}, f"not done after {limit:.0f} s"
-        said = json.loads(out.read_text(encoding="utf-8")) if out.exists() else {}
-        return ended.returncode, said, ended.stderr.strip().replace(str(copy), "CAMPAIGN")[-2000:]
+def diagnosed(campaign: Path, jobs: int, limit: float, without: list[str]) -> tuple[int, Json, str]:
+    """Exit status, JSON and error text of the command on a campaign's copy, `without` some effects."""
+    out = campaign.parent / "said.json"
+    command = [sys.executable, "-m", "comprope_system.cli", "diagnose", str(campaign), "--json", str(out), "--jobs", str(jobs)]
+    command += [word for name in without for word in ("--without", name)]
+    try:
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
+    except subprocess.TimeoutExpired:
+        return -1, {}, f"not done after {limit:.0f} s"
+    said = json.loads(out.read_text(encoding="utf-8")) if out.exists() else {}
+    return ended.returncode, said, ended.stderr.strip().replace(str(campaign), "CAMPAIGN")[-2000:]
 
 
 def first(truth: Json, said: Json) -> bool:

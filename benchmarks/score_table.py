@@ -5,6 +5,8 @@ from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
+from score_added import table as intervals
+
 Json = dict[str, Any]
 VISIBLE = 3.0  # times the noise that a cause must shift some channel by
 TAKEN_OUT = "taken out"  # kind of a cause that the library has but was told to rule out
@@ -15,7 +17,7 @@ def table(rows: Sequence[Json]) -> str:
     """All tables, in Markdown."""
     if not rows:
         return "no scores yet"
-    return "\n\n".join("\n".join(part(rows)) for part in (by_cause, totals, honesty))
+    return "\n\n".join("\n".join(part(rows)) for part in (by_cause, totals, honesty, intervals))
 
 
 COLUMNS = (
