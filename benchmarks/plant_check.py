@@ -1,6 +1,6 @@
 """The virtual tower beside the library, which it knows nothing of, and beside itself with finer elements.
 
-    python benchmarks/plant_check.py [SITE...]
+    python benchmarks/plant_check.py [--site NAME]
 
 Root mean square of differences along whole trips without noise, each displacement from its rest, and processor seconds per ride.
 """
@@ -27,8 +27,8 @@ COARSE, USUAL, FINE = (Plan(SOUND, {"element": size}) for size in (0.02, 0.01, 0
 def main() -> None:
     """Print both comparisons for each site."""
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("sites", nargs="*", choices=[[], *SITES], metavar="SITE", help=f"{', '.join(SITES)}; all without")
-    for name in options.parse_args().sites or SITES:
+    options.add_argument("--site", action="append", choices=SITES, help="all without")
+    for name in options.parse_args().site or SITES:
         checked(SITES[name])
 
 

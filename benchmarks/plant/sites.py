@@ -1,4 +1,4 @@
-"""The places where campaigns are made: a tower, its trips, and what is measured there, by whom and how well.
+"""The places where campaigns are made: a tower, its trips, what is measured there, and how well.
 
 Every sensor sees rope while the car waits for its trip: what counts from rest has a rest to count from.
 """
@@ -26,7 +26,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Channel:
-    """A column: its quantity as campaigns call it, what the plant calls it, and how it is written; noise in the column's unit."""
+    """A column: its quantity as campaigns call it, what the plant calls it, and how it is written; noise in its unit."""
 
     quantity: str
     source: str
@@ -49,7 +49,6 @@ class Site:
     channels: Mapping[str, Channel]
     every: int = 2  # the plant's steps from one row to the next
     encoder: float = 5e-4  # m, noise of the car's position
-    element_length: float = 0.05  # m, of the model under test
 
     @property
     def noise(self) -> dict[str, float]:
@@ -125,6 +124,5 @@ HIGH120 = Site(
     },
     every=3,
     encoder=1e-3,
-    element_length=0.1,
 )  # fmt: skip
 SITES = {site.name: site for site in (TOWER50, OFFICE28, HIGH120)}

@@ -9,7 +9,7 @@ from .sites import Channel, Site
 from .tower import Floats
 
 MODEL = """\
-# {title} as its designers describe it; the plant differs a little.
+# The {title} as its designers describe it; the plant differs a little.
 [shaft]
 height = {p.height}
 pit = {p.pit}
@@ -21,7 +21,7 @@ axial_stiffness = {p.EA}
 bending_stiffness = {p.EI}
 axial_damping = {p.axial_damping}
 bending_damping = {p.bending_damping}
-element_length = {element_length}
+element_length = 0.05
 
 [sheave]
 mass = {p.sheave_mass}
@@ -51,7 +51,7 @@ def describe(folder: Path, site: Site, seed: int, stated: float) -> None:
         mass, inertia = site.tower.sheave_mass * run.share, site.tower.inertia * run.share
         text += RUN.format(name=name, role=run.role, mass=mass, inertia=inertia)
     (folder / "campaign.toml").write_text(text, encoding="utf-8")
-    model = MODEL.format(title=site.title, p=site.tower, element_length=site.element_length)
+    model = MODEL.format(title=site.title, p=site.tower)
     sensors = (SENSOR.format(name=name, side=SIDES[side], height=height) for name, (side, height) in site.sensors.items())
     (folder / f"{site.name}.toml").write_text(model + "".join(sensors), encoding="utf-8")
 
