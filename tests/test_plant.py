@@ -14,6 +14,7 @@ from comprope_system.identify.replay import replay
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
+import plant_check
 import score_campaigns
 from plant import campaign as plants
 from plant import texts
@@ -131,6 +132,18 @@ def test_a_site_can_be_measured(site, tmp_path):
     for name, cause in CAUSES.items():
         plan = plants.drawn(1, (name,), site=site)
         assert (plan.column in site.channels) if cause.channel else plan.column is None
+
+
+def test_the_office_building_agrees_with_the_library(tmp_path):
+    site = replace(SITES["office28"], runs={"part": replace(SITES["office28"].runs["part"], role="fit")})
+    plan = replace(plant_check.COARSE, site=site)
+    plants.write(plan, tmp_path)
+    measured = load_campaign(tmp_path)
+    rows, _ = plant_check.driven(plan, measured.runs[0])
+    found = plant_check.replayed(site, measured, measured.runs[0], rows)
+    for column, noise in site.noise.items():
+        # with nodes of 1 cm up to 0.2 times the noise; of 2 cm, up to 0.26 times the noise away from those
+        assert np.sqrt(np.nanmean((found[column] - rows[column]) ** 2)) < 0.4 * noise
 
 
 def test_heights_of_causes_go_with_the_shaft():

@@ -31,7 +31,7 @@ class Channel:
     quantity: str
     source: str
     unit: str
-    scale: float  # of the column's unit in one of SI
+    scale: float  # the column's units per SI unit
     noise: float
     reference: str = "rest"  # or "absolute"
 
