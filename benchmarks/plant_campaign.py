@@ -4,8 +4,9 @@
     python benchmarks/plant_campaign.py --out FOLDER --random 1:40 [--jobs 2]
     python benchmarks/plant_campaign.py --list
 
-Several `--cause` are hidden together. `--level` goes from 0, barely visible, to 1, large; `--size` is the first quantity itself.
-With `--random` each seed has a folder of its own below FOLDER. The truth is beside the data, in truth.json.
+Campaigns are of the 50 m tower, or of another `--site`. Several `--cause` are hidden together. `--level` goes from 0, barely
+visible, to 1, large; `--size` is the first quantity itself. With `--random` each seed has a folder of its own below FOLDER. The
+truth is beside the data, in truth.json.
 """
 
 import argparse
@@ -16,12 +17,14 @@ from pathlib import Path
 
 from plant.campaign import Plan, drawn, random_plan, write
 from plant.causes import CAUSES
+from plant.sites import SITES, TOWER50
 
 
 def main() -> None:
     """Make what the command line asks for."""
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--out", type=Path, default=Path("campaigns"))
+    options.add_argument("--site", choices=SITES, default=TOWER50.name)
     options.add_argument("--cause", action="append", choices=sorted(CAUSES))
     options.add_argument("--level", type=float)
     options.add_argument("--size", type=float)
@@ -31,16 +34,19 @@ def main() -> None:
     options.add_argument("--jobs", type=int, default=1)
     options.add_argument("--list", action="store_true")
     chosen = options.parse_args()
+    site = SITES[chosen.site]
     if chosen.list:
         listed()
     elif chosen.random:
         first, _, last = chosen.random.partition(":")
         seeds = range(int(first), int(last or first) + 1)
         with ProcessPoolExecutor(chosen.jobs, mp_context=multiprocessing.get_context("spawn")) as executor:
-            for line in executor.map(made, [random_plan(seed) for seed in seeds], [chosen.out / f"{seed:04d}" for seed in seeds]):
+            plans, folders = [random_plan(seed, site) for seed in seeds], [chosen.out / f"{seed:04d}" for seed in seeds]
+            for line in executor.map(made, plans, folders):
                 print(line, flush=True)
     else:
-        plan = replace(drawn(chosen.seed, tuple(chosen.cause or ["nothing"]), chosen.level), before=chosen.before)
+        plan = drawn(chosen.seed, tuple(chosen.cause or ["nothing"]), chosen.level, site)
+        plan = replace(plan, before=chosen.before)
         print(made(plan if chosen.size is None else sized(plan, chosen.size), chosen.out))
 
 

@@ -14,21 +14,21 @@ from comprope_system.identify.replay import replay
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
+import plant_check
 import score_campaigns
 from plant import campaign as plants
+from plant import texts
 from plant.causes import CAUSES
 from plant.ride import course, ride
+from plant.sites import SITES, TOWER50, Run
 from plant.tower import Tower
 from plant.trip import trip
 
 SMALL = {"height": 15.0, "element": 0.04}  # a tower that rides in a third of a second
+LOW = replace(TOWER50, runs={"up_nominal": Run(0.0, 11.0, 1.0), "up_short": Run(1.0, 12.0, 0.75)})
+SHORT = replace(LOW, runs={"up_short": LOW.runs["up_short"]})
 PHYSICAL = [name for name, cause in CAUSES.items() if cause.kind in ("known", "outside", "instrument")]
 FILES = [name for name, cause in CAUSES.items() if cause.kind == "data"]
-
-
-@pytest.fixture(autouse=True)
-def short_trip(monkeypatch):
-    monkeypatch.setattr(plants, "RUNS", {"up_nominal": (0.0, 11.0, 1.0), "up_short": (1.0, 12.0, 0.75)})
 
 
 def rows(plan, causes):
@@ -48,11 +48,12 @@ def plain():
 
 
 def small(name):
-    return replace(plants.drawn(7, (name,), 1.0), plant=SMALL)
+    return replace(plants.drawn(7, (name,), 1.0, LOW), plant=SMALL)
 
 
 def test_without_causes_it_agrees_with_the_library(tmp_path):
-    plan = replace(plants.drawn(1, ("nothing",)), plant={"element": 0.02}, runs=("up_nominal",))
+    site = replace(LOW, runs={"up_nominal": LOW.runs["up_nominal"]})
+    plan = replace(plants.drawn(1, ("nothing",), site=site), plant={"element": 0.02})
     plants.write(plan, tmp_path)
     measured = load_campaign(tmp_path)
     run = measured.runs[0]
@@ -67,7 +68,7 @@ def test_without_causes_it_agrees_with_the_library(tmp_path):
 
 def test_at_rest_it_carries_what_hangs_on_it():
     p = Tower()
-    true = ride(p, course(p, np.zeros(3), np.array([[5.0, 0.0, 0.0]] * 3)))
+    true = ride(p, course(p, np.zeros(3), np.array([[5.0, 0.0, 0.0]] * 3)), {}, 2)
     weight = p.mass_per_length * 9.81
     ends = true["car_tension"][0] + true["counterweight_tension"][0]
     assert true["force"][0] == pytest.approx(p.sheave_mass * 9.81, rel=1e-6)
@@ -78,18 +79,18 @@ def test_at_rest_it_carries_what_hangs_on_it():
 
 
 def test_a_trip_keeps_its_limits_and_arrives():
-    time, motion = trip(38.0, 0.0, 0.004)
+    time, motion = trip(38.0, 0.0, TOWER50.limits, 0.004, 2)
     assert motion[0, 0] == 38.0 and motion[-1, 0] == pytest.approx(0.0, abs=1e-9)
     assert np.abs(motion[:, 1]).max() == pytest.approx(2.5) and np.abs(motion[:, 2]).max() == pytest.approx(0.8)
     assert np.gradient(motion[:, 0], time) == pytest.approx(motion[:, 1], abs=1e-5)  # second order in the step: j h^2 / 6 = 2e-6
     with pytest.raises(ValueError, match="does not reach"):
-        trip(0.0, 5.0, 0.004)
+        trip(0.0, 5.0, TOWER50.limits, 0.004, 2)
 
 
 @pytest.mark.parametrize("name", PHYSICAL)
 def test_every_cause_shows_when_it_is_large(name, plain):
     plan = small(name)
-    shift = plants.shifted(rows(plan, plan.causes), plain(plan))
+    shift = plants.shifted(LOW, rows(plan, plan.causes), plain(plan))
     assert max(shift.values()) > 2.0  # times the noise; drag shows least in so low a tower, 2.7, all others more than 3
 
 
@@ -104,7 +105,7 @@ def test_every_fault_of_data_is_in_the_files(name, tmp_path, plain):
 
     def of_plain():
         clean = plain(plan)
-        true = {plants.SOURCE.get(key, key): clean[key] / plants.SCALE[key] for key in plants.NOISE}
+        true = {channel.source: clean[column] / channel.scale for column, channel in LOW.channels.items()}
         return true | {"time": clean["time"]}, clean["car_position"]
 
     (faulty, stated), (sound, truly) = written(plan.causes), written({"nothing": {}})
@@ -115,6 +116,39 @@ def test_the_same_seed_gives_the_same_campaign():
     assert plants.random_plan(5) == plants.random_plan(5) != plants.random_plan(6)
     kinds = {plants.random_plan(seed).kind for seed in range(60)}
     assert kinds == set(plants.KINDS)
+
+
+@pytest.mark.parametrize("site", SITES.values(), ids=SITES)
+def test_a_site_can_be_measured(site, tmp_path):
+    texts.describe(tmp_path, site, 1, 1.0)
+    model = load(tmp_path / f"{site.name}.toml")
+    assert (model.shaft.height, model.sheave.mass) == (site.tower.height, site.tower.sheave_mass)
+    assert {sensor.name: sensor.height for sensor in model.sensors} == {name: high for name, (_, high) in site.sensors.items()}
+    for run in site.runs.values():
+        _, motion = trip(run.start, run.stop, site.limits, 0.004, site.every)
+        assert motion[-1] == pytest.approx([run.stop, 0.0, 0.0], abs=1e-9)  # the record may end a little after the rest
+        ends = {-1.0: motion[0, 0], 1.0: site.tower.height - motion[0, 0]}
+        assert all(height < ends[side] for side, height in site.sensors.values())  # in view at rest
+    for name, cause in CAUSES.items():
+        plan = plants.drawn(1, (name,), site=site)
+        assert (plan.column in site.channels) if cause.channel else plan.column is None
+
+
+def test_the_office_building_agrees_with_the_library(tmp_path):
+    site = replace(SITES["office28"], runs={"part": replace(SITES["office28"].runs["part"], role="fit")})
+    plan = replace(plant_check.COARSE, site=site)
+    plants.write(plan, tmp_path)
+    measured = load_campaign(tmp_path)
+    rows, _ = plant_check.driven(plan, measured.runs[0])
+    found = plant_check.replayed(site, measured, measured.runs[0], rows)
+    for column, noise in site.noise.items():
+        # with nodes of 1 cm up to 0.2 times the noise; of 2 cm, up to 0.26 times the noise away from those
+        assert np.sqrt(np.nanmean((found[column] - rows[column]) ** 2)) < 0.4 * noise
+
+
+def test_heights_of_causes_go_with_the_shaft():
+    low, high = (plants.drawn(1, ("brush",), site=SITES[name]).causes["brush"] for name in ("tower50", "high120"))
+    assert high["brush_height"] == pytest.approx(2.4 * low["brush_height"]) and high["brush_side"] == low["brush_side"]
 
 
 SAID = {"verdict": "a", "verdict_kind": "known_effect", "indistinguishable": [["a", "b"]], "ranking": []}
@@ -155,9 +189,10 @@ def test_a_wrong_sign_must_be_told():
 
 
 def test_the_truth_stands_beside_the_campaign(tmp_path):
-    plan = replace(small("guide_friction"), runs=("up_short",))
+    plan = replace(small("guide_friction"), site=SHORT)
     plants.write(plan, tmp_path)
     truth = json.loads((tmp_path / "truth.json").read_text())
-    assert truth["kind"] == "known" and truth["causes"]["guide_friction"] == {"coulomb_force": 80.0}
+    assert truth["site"] == "tower50" and truth["kind"] == "known"
+    assert truth["causes"]["guide_friction"] == {"coulomb_force": 80.0}
     assert load(tmp_path / "tower50.toml").rope.bending_stiffness == 20.0
     assert score_campaigns.campaigns([tmp_path]) == [tmp_path.resolve()]

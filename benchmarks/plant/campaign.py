@@ -2,34 +2,25 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from . import faults, texts
 from .causes import CAUSES
-from .ride import EVERY, STEP, course, ride
-from .tower import Floats, Tower
+from .ride import STEP, course, ride
+from .sites import TOWER50, Site
+from .tower import Floats
 from .trip import trip
 
-RUNS = {  # start, stop [m], share of the sheave's mass
-    "up_nominal": (0.0, 45.0, 1.0),
-    "up_light": (0.0, 45.0, 0.5),
-    "down_nominal": (38.0, 0.0, 1.0),
-    "up_short": (2.0, 32.0, 0.75),
-}
 OFF = {"EI": 0.2, "bending_damping": 0.2, "mass_per_length": 0.05, "friction": 0.2}  # how far the plant may be off the model
-NOISE = {"cw_low": 0.2, "cw_mid": 0.2, "car_low": 0.2, "sheave_dx": 0.02, "sheave_w": 0.01}  # in the units of the files
-SCALE = {"cw_low": 1e3, "cw_mid": 1e3, "car_low": 1e3, "sheave_dx": 1e3, "sheave_w": 1.0}
-SOURCE = {"sheave_dx": "axle", "sheave_w": "omega"}  # what the plant calls them
-ENCODER = 5e-4  # m
-BEFORE = 2.5  # s, the rest at whose mean displacements are zero
+AFOOT = 0.5  # s before the trip in which the mean at rest is no longer taken
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is hidden in a campaign: causes with their quantities, the column of an instrument's fault, the plant."""
+    """What is hidden in a campaign: causes with their quantities, the column of an instrument's fault, the plant; and where."""
 
     causes: Mapping[str, Mapping[str, float]]
     plant: Mapping[str, float]
@@ -37,7 +28,7 @@ class Plan:
     seed: int = 0
     level: float | None = None
     before: float = 0.0  # s that all goes on before the record begins: a building sways not only from then on
-    runs: tuple[str, ...] = field(default=tuple(RUNS))
+    site: Site = TOWER50
 
     @property
     def kind(self) -> str:
@@ -46,56 +37,59 @@ class Plan:
         return "pair" if len(kinds) > 1 else kinds[0]
 
 
-def drawn(seed: int, causes: tuple[str, ...], level: float | None = None) -> Plan:
+def drawn(seed: int, causes: tuple[str, ...], level: float | None = None, site: Site = TOWER50) -> Plan:
     """A campaign with given causes, everything else drawn."""
     rng = np.random.default_rng(seed)
-    plant = {name: float(getattr(Tower(), name) * rng.uniform(1.0 - off, 1.0 + off)) for name, off in OFF.items()}
+    plant = {name: float(getattr(site.tower, name) * rng.uniform(1.0 - off, 1.0 + off)) for name, off in OFF.items()}
     level = float(rng.uniform()) if level is None else level
-    columns = [column for name in causes for column in CAUSES[name].columns]
+    columns = [column for name in causes for column in site.columns(CAUSES[name].quantities)]
     column = str(rng.choice(columns)) if columns else None
-    return Plan({name: CAUSES[name].values(rng, level) for name in causes}, plant, column, seed, level)
+    values = {name: CAUSES[name].values(rng, site.tall, level) for name in causes}
+    return Plan(values, plant, column, seed, level, site=site)
 
 
 KINDS = {"known": 0.45, "pair": 0.12, "instrument": 0.08, "outside": 0.15, "nothing": 0.12, "data": 0.08}
 
 
-def random_plan(seed: int) -> Plan:
+def random_plan(seed: int, site: Site = TOWER50) -> Plan:
     """A campaign with drawn causes."""
     rng = np.random.default_rng([seed, 1])
     kind = str(rng.choice(list(KINDS), p=list(KINDS.values())))
     among = [name for name, cause in CAUSES.items() if cause.kind == ("known" if kind == "pair" else kind)]
-    return drawn(seed, tuple(str(one) for one in rng.choice(among, 2 if kind == "pair" else 1, replace=False)))
+    chosen = rng.choice(among, 2 if kind == "pair" else 1, replace=False)
+    return drawn(seed, tuple(str(one) for one in chosen), site=site)
 
 
 def planted(plan: Plan, name: str, causes: Mapping[str, Mapping[str, float]]) -> tuple[dict[str, Floats], Floats]:
     """One run's true channels (SI, `time` among them) with some of the plan's causes, and what the encoder truly reads."""
-    start, stop, share = RUNS[name]
-    p = Tower(**plan.plant)
-    p = p._replace(sheave_mass=share * p.sheave_mass, inertia=share * p.inertia)
+    site, run = plan.site, plan.site.runs[name]
+    p = site.tower._replace(**plan.plant)
     for cause, values in causes.items():
         p = p._replace(**{to: values[which] for which, to in CAUSES[cause].fields.items()})
-    given = course(p, *trip(start, stop, STEP, plan.before))
-    rng = np.random.default_rng([plan.seed, 2, list(RUNS).index(name)])
+    p = p.with_sheave(run.share)
+    given = course(p, *trip(run.start, run.stop, site.limits, STEP, site.every, plan.before))
+    rng = np.random.default_rng([plan.seed, 2, list(site.runs).index(name)])
     for cause, values in causes.items():
         act = CAUSES[cause].course
         given = act(p, given, values, rng) if act else given
-    true = ride(p, given)
+    true = ride(p, given, site.sensors, site.every)
     recorded = true["time"] >= 0.0
-    car = -given.encoder * given.ends[::EVERY, 0, 0]
+    car = -given.encoder * given.ends[:: site.every, 0, 0]
     return {name: values[recorded] for name, values in true.items()}, car[recorded]
 
 
 def measured(plan: Plan, true: Mapping[str, Floats], car: Floats, causes: Mapping[str, Mapping[str, float]]) -> faults.Rows:
     """What the instruments make of it, without noise, in the units of the files; displacements from rest."""
     rows = {"time": true["time"], "car_position": car}
-    for column in NOISE:
-        values = true[SOURCE.get(column, column)]
-        if column != "sheave_w":
-            values = values - values[true["time"] < BEFORE].mean()
+    resting = true["time"] < plan.site.limits.rest - AFOOT
+    for column, channel in plan.site.channels.items():
+        values = true[channel.source]
+        if channel.reference == "rest":
+            values = values - values[resting].mean()
         for cause, by in causes.items():
             fault = CAUSES[cause].channel
             values = fault(true["time"], values, by) if fault and column == plan.column else values
-        rows[column] = values * SCALE[column]
+        rows[column] = values * channel.scale
     return rows
 
 
@@ -104,12 +98,13 @@ def noisy(plan: Plan, rows: faults.Rows, rng: np.random.Generator) -> faults.Row
     for fault in (faults.uneven_sampling, faults.clock_offset):
         if fault.__name__ in plan.causes:
             rows = fault(rows, plan.causes[fault.__name__], rng)
+    noise = plan.site.noise
     rows = {
-        name: values if name == "time" else values + rng.normal(0.0, NOISE.get(name, ENCODER), len(values))
+        name: values if name == "time" else values + rng.normal(0.0, noise.get(name, plan.site.encoder), len(values))
         for name, values in rows.items()
     }
     if "outliers" in plan.causes:
-        rows = faults.outliers(rows, plan.causes["outliers"], rng, NOISE)
+        rows = faults.outliers(rows, plan.causes["outliers"], rng, noise)
     return faults.gaps(rows, plan.causes["gaps"], rng) if "gaps" in plan.causes else rows
 
 
@@ -117,16 +112,17 @@ def write(plan: Plan, folder: Path) -> None:
     """Drive all runs and write the campaign and its truth."""
     folder.mkdir(parents=True, exist_ok=True)
     shift: dict[str, float] = {}
-    lightest = min(plan.runs, key=lambda name: RUNS[name][2])  # where causes show most
-    for k, name in enumerate(plan.runs):
+    site = plan.site
+    lightest = min(site.runs, key=lambda name: site.runs[name].share)  # where causes show most
+    for k, name in enumerate(site.runs):
         rows = measured(plan, *planted(plan, name, plan.causes), plan.causes)
         if name == lightest and plan.kind != "nothing":
-            shift = shifted(rows, measured(plan, *planted(plan, name, {}), {}))
+            shift = shifted(site, rows, measured(plan, *planted(plan, name, {}), {}))
         texts.table(folder / f"{name}.csv", noisy(plan, rows, np.random.default_rng([plan.seed, 3, k])))
-    texts.describe(folder, f"50 m tower, {plan.seed}", {name: RUNS[name][2] for name in plan.runs}, stated_noise(plan))
+    texts.describe(folder, site, plan.seed, stated_noise(plan))
     truth = {
-        "kind": plan.kind, "causes": plan.causes, "column": plan.column, "level": plan.level, "seed": plan.seed,
-        "before": plan.before, "plant": plan.plant, "near": near(plan), "shift": shift,
+        "site": site.name, "kind": plan.kind, "causes": plan.causes, "column": plan.column, "level": plan.level,
+        "seed": plan.seed, "before": plan.before, "plant": plan.plant, "near": near(plan), "shift": shift,
     }  # fmt: skip
     (folder / "truth.json").write_text(json.dumps(truth, indent=1) + "\n", encoding="utf-8")
 
@@ -141,6 +137,6 @@ def near(plan: Plan) -> list[str]:
     return sorted({name for cause in plan.causes for name in CAUSES[cause].near})
 
 
-def shifted(rows: faults.Rows, plain: faults.Rows) -> dict[str, float]:
+def shifted(site: Site, rows: faults.Rows, plain: faults.Rows) -> dict[str, float]:
     """By how many times its noise the causes shift each channel at most."""
-    return {name: float(np.nanmax(np.abs(rows[name] - plain[name])) / size) for name, size in NOISE.items()}
+    return {name: float(np.nanmax(np.abs(rows[name] - plain[name])) / size) for name, size in site.noise.items()}

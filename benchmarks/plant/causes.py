@@ -24,12 +24,13 @@ class Draw:
     high: float
     even: bool = False
     signed: bool = False
+    tall: bool = False  # a height in a shaft of 50 m, in others in proportion
 
-    def value(self, rng: np.random.Generator, level: float | None = None) -> float:
-        """A drawn value, or the one at a level between 0 (barely visible) and 1 (large)."""
+    def value(self, rng: np.random.Generator, tall: float, level: float | None = None) -> float:
+        """A drawn value, or the one at a level between 0 (barely visible) and 1 (large), in a shaft so `tall`."""
         level = float(rng.uniform()) if level is None else level
         size = self.low + level * (self.high - self.low) if self.even else self.low * (self.high / self.low) ** level
-        return float(size * (rng.choice((-1.0, 1.0)) if self.signed else 1.0))
+        return float(size * (tall if self.tall else 1.0) * (rng.choice((-1.0, 1.0)) if self.signed else 1.0))
 
 
 @dataclass(frozen=True)
@@ -42,13 +43,13 @@ class Cause:
     fields: Mapping[str, str] = field(default_factory=dict)  # the tower's name of a quantity, where it has one
     course: Act | None = None
     channel: Fault | None = None
-    columns: tuple[str, ...] = ()
+    quantities: tuple[str, ...] = ()  # of the channels that it may hit
     near: tuple[str, ...] = ()
 
-    def values(self, rng: np.random.Generator, level: float | None = None) -> dict[str, float]:
+    def values(self, rng: np.random.Generator, tall: float, level: float | None = None) -> dict[str, float]:
         """All that the cause needs, drawn; sizes at `level` where it is given."""
-        return {name: one.value(rng, level) for name, one in self.size.items()} | {
-            name: one.value(rng) for name, one in self.beside.items()
+        return {name: one.value(rng, tall, level) for name, one in self.size.items()} | {
+            name: one.value(rng, tall) for name, one in self.beside.items()
         }
 
 
@@ -60,8 +61,9 @@ def tower(kind: str, size: Mapping[str, Draw], beside: Mapping[str, Draw] | None
 
 
 PHASE = Draw(0.0, TURN, even=True)
-LATERAL = ("cw_low", "cw_mid", "car_low")
-EVERY = (*LATERAL, "sheave_dx", "sheave_w")
+LATERAL, TURNING = ("lateral_displacement",), ("sheave_angular_velocity",)
+LENGTHS = (*LATERAL, "sheave_displacement")
+EVERY = (*LENGTHS, *TURNING, "sheave_force", "car_end_tension", "counterweight_end_tension")
 CAUSES: dict[str, Cause] = {
     "nothing": Cause("nothing"),
     # in the library
@@ -90,11 +92,13 @@ CAUSES: dict[str, Cause] = {
         course=ends.attachment_offset,
     ),
     # the instrument; offset, drift and unit in SI
-    "sensor_gain": Cause("instrument", {"excess": Draw(0.02, 0.2, signed=True)}, channel=instruments.sensor_gain, columns=EVERY),
-    "sensor_offset": Cause(
-        "instrument", {"offset": Draw(5e-3, 0.2, signed=True)}, channel=instruments.sensor_offset, columns=("sheave_w",)
+    "sensor_gain": Cause(
+        "instrument", {"excess": Draw(0.02, 0.2, signed=True)}, channel=instruments.sensor_gain, quantities=EVERY
     ),
-    "sensor_delay": Cause("instrument", {"delay": Draw(0.01, 0.1)}, channel=instruments.sensor_delay, columns=LATERAL),
+    "sensor_offset": Cause(
+        "instrument", {"offset": Draw(5e-3, 0.2, signed=True)}, channel=instruments.sensor_offset, quantities=TURNING
+    ),
+    "sensor_delay": Cause("instrument", {"delay": Draw(0.01, 0.1)}, channel=instruments.sensor_delay, quantities=LATERAL),
     # outside the library
     "rail_waves": Cause("outside", {"size": Draw(5e-4, 6e-3)}, {"shift": Draw(0.0, 5.0, even=True)}, course=ends.rail_waves),
     "gusts": Cause("outside", {"size": Draw(5e-5, 1e-2)}, course=ends.gusts, near=("building_sway",)),
@@ -109,11 +113,11 @@ CAUSES: dict[str, Cause] = {
     "unbalance": tower("outside", {"unbalance": Draw(0.02, 1.5)}, {"unbalance_phase": PHASE}, near=("sheave_eccentricity",)),
     "brush": tower(
         "outside", {"brush_stiffness": Draw(0.5, 1e3)},
-        {"brush_height": Draw(1.0, 9.0), "brush_side": Draw(1.0, 1.0, signed=True), "brush_damping": Draw(1.0, 20.0)},
+        {"brush_height": Draw(1.0, 9.0, tall=True), "brush_side": Draw(1.0, 1.0, signed=True), "brush_damping": Draw(1.0, 20.0)},
     ),
     "rubbing_wall": tower(
         "outside", {"wall_distance": Draw(3e-3, 4e-2)},
-        {"wall_height": Draw(3.0, 9.5), "wall_side": Draw(1.0, 1.0, signed=True), "wall_stiffness": Draw(1e5, 4e5),
+        {"wall_height": Draw(3.0, 9.5, tall=True), "wall_side": Draw(1.0, 1.0, signed=True), "wall_stiffness": Draw(1e5, 4e5),
          "wall_friction": Draw(0.1, 0.4)},
     ),
     "sticky_guide": tower(
@@ -124,10 +128,10 @@ CAUSES: dict[str, Cause] = {
     "sloped_guide": tower("outside", {"guide_slope": Draw(0.1, 1.5, signed=True)}),
     # the data
     "sensor_drift": Cause(
-        "data", {"per_minute": Draw(5e-4, 1e-2, signed=True)}, channel=instruments.sensor_drift, columns=LATERAL
+        "data", {"per_minute": Draw(5e-4, 1e-2, signed=True)}, channel=instruments.sensor_drift, quantities=LATERAL
     ),
-    "wrong_sign": Cause("data", channel=instruments.wrong_sign, columns=EVERY),
-    "wrong_unit": Cause("data", {"factor": Draw(0.1, 0.1)}, channel=instruments.wrong_unit, columns=EVERY[:4]),
+    "wrong_sign": Cause("data", channel=instruments.wrong_sign, quantities=EVERY),
+    "wrong_unit": Cause("data", {"factor": Draw(0.1, 0.1)}, channel=instruments.wrong_unit, quantities=LENGTHS),
     "uneven_sampling": Cause("data", {"jitter": Draw(0.1, 0.45)}),
     "gaps": Cause("data", {"seconds": Draw(0.3, 3.0)}),
     "outliers": Cause("data", {"share": Draw(3e-4, 1e-2)}, {"times_noise": Draw(10.0, 200.0)}),

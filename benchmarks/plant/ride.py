@@ -10,8 +10,7 @@ from .march import march
 from .standing import standing
 from .tower import Floats, Tower
 
-STEP, EVERY = 0.004, 2
-SENSORS = {"cw_low": (1.0, 0.5), "cw_mid": (1.0, 10.0), "car_low": (-1.0, -0.8)}
+STEP = 0.004  # s
 
 
 @dataclass(frozen=True)
@@ -34,8 +33,11 @@ def course(p: Tower, time: Floats, motion: Floats) -> Course:
     return Course(time, ends, np.zeros(len(time)))
 
 
-def ride(p: Tower, given: Course, sensors: Mapping[str, tuple[float, float]] = SENSORS) -> dict[str, Floats]:
-    """Channels at every second step, in SI units: `time`, `axle` (up), `turned`, `omega`, tensions, `force`, and the sensors."""
+def ride(p: Tower, given: Course, sensors: Mapping[str, tuple[float, float]], every: int) -> dict[str, Floats]:
+    """Channels at one of `every` steps, in SI units: `time`, `axle` (up), `turned`, `omega`, tensions, `force`, and the sensors.
+
+    Sensors are a side, -1 car and +1 counterweight, and a height each.
+    """
     p, n = p.laid_out()
     W = work(n)
     mass = np.full(n, p.mass_per_length * p.element)
@@ -43,19 +45,19 @@ def ride(p: Tower, given: Course, sensors: Mapping[str, tuple[float, float]] = S
         mass[round(share * n) :] = factor * p.mass_per_length * p.element
     begin = given.ends[0]
     q = standing(p, n, W, mass, -begin[0, 0], (-begin[1, 0] - p.radius, begin[3, 0] - p.radius))
-    places = np.array(list(sensors.values()))
-    out = np.zeros(((len(given.time) - 1) // EVERY + 1, 6 + len(places)))
+    places = np.array(list(sensors.values())).reshape(-1, 2)
+    out = np.zeros(((len(given.time) - 1) // every + 1, 6 + len(places)))
     kappa = bent(p, n, q)
     v, a = np.zeros_like(q), np.zeros_like(q)
     done = march(
-        p, n, STEP, W, mass, given.ends, given.thermal, kappa, np.zeros(n), q, v, a, np.zeros((5, len(q))), places, EVERY, out
+        p, n, STEP, W, mass, given.ends, given.thermal, kappa, np.zeros(n), q, v, a, np.zeros((5, len(q))), places, every, out
     )
     if done < 0.0:
         raise RuntimeError(f"the plant failed {-done * STEP:.3f} s into the ride")
     names = ("axle", "turned", "omega", "car_tension", "counterweight_tension", "force", *sensors)
     channels = dict(zip(names, out.T.copy(), strict=True))
     channels["axle"] = -channels["axle"]
-    return {"time": given.time[::EVERY]} | channels
+    return {"time": given.time[::every]} | channels
 
 
 def bent(p: Tower, n: int, q: Floats) -> Floats:

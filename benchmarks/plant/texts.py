@@ -5,57 +5,61 @@ from pathlib import Path
 
 import numpy as np
 
-from .ride import SENSORS
+from .sites import Channel, Site
 from .tower import Floats
 
 MODEL = """\
-# The 50 m test tower as its designers describe it; the plant differs a little.
+# The {title} as its designers describe it; the plant differs a little.
 [shaft]
-height = 50.0
-pit = 1.5
+height = {p.height}
+pit = {p.pit}
 
 [rope]
-mass_per_length = 1.2
-diameter = 0.018
-axial_stiffness = 8.0e6
-bending_stiffness = 20.0
-axial_damping = 2.0e3
-bending_damping = 0.1
+mass_per_length = {p.mass_per_length}
+diameter = {p.diameter}
+axial_stiffness = {p.EA}
+bending_stiffness = {p.EI}
+axial_damping = {p.axial_damping}
+bending_damping = {p.bending_damping}
 element_length = 0.05
 
 [sheave]
-mass = 120.0
-radius = 0.4
-inertia = 9.6
+mass = {p.sheave_mass}
+radius = {p.radius}
+inertia = {p.inertia}
 
 [contact]
-stiffness = 1.2e7
-damping = 8.0e3
-friction_coefficient = 0.3
-slip_velocity = 0.02
+stiffness = {p.contact_stiffness}
+damping = {p.contact_damping}
+friction_coefficient = {p.friction}
+slip_velocity = {p.slip_velocity}
 """
 SENSOR = '\n[[sensors]]\nname = "{name}"\nside = "{side}"\nheight = {height}\n'
-LATERAL = (
-    '\n[[channels]]\ncolumn = "{name}"\nquantity = "lateral_displacement"\nsensor = "{name}"\nunit = "mm"\nreference = "rest"\n'
+SIDES = {-1.0: "car", 1.0: "counterweight"}
+CHANNEL = (
+    '\n[[channels]]\ncolumn = "{column}"\nquantity = "{c.quantity}"\n{sensor}unit = "{c.unit}"\nreference = "{c.reference}"\n'
 )
-AXLE = '\n[[channels]]\ncolumn = "sheave_dx"\nquantity = "sheave_displacement"\nunit = "mm"\nreference = "rest"\n'
-TURNING = '\n[[channels]]\ncolumn = "sheave_w"\nquantity = "sheave_angular_velocity"\nunit = "rad/s"\nreference = "absolute"\n'
 RUN = '\n[[runs]]\nfile = "{name}.csv"\nrole = "{role}"\nset = {{ "sheave.mass" = {mass}, "sheave.inertia" = {inertia:.3f} }}\n'
 
 
-def describe(folder: Path, title: str, shares: Mapping[str, float], stated: float) -> None:
-    """Write campaign.toml and tower50.toml; `stated` is the noise stated over the true one."""
-    text = f'name = "{title}"\nmodel = "tower50.toml"\n'
-    for name in SENSORS:
-        text += LATERAL.format(name=name) + f"noise = {0.2 * stated:.4g}\n"
-    text += AXLE + f"noise = {0.02 * stated:.4g}\n" + TURNING + f"noise = {0.01 * stated:.4g}\n"
-    for name, share in shares.items():
-        role = "validate" if name == "up_short" else "fit"
-        text += RUN.format(name=name, role=role, mass=120.0 * share, inertia=9.6 * share)
+def describe(folder: Path, site: Site, seed: int, stated: float) -> None:
+    """Write campaign.toml and the model under test; `stated` is the noise stated over the true one."""
+    text = f'name = "{site.title}, {seed}"\nmodel = "{site.name}.toml"\n'
+    for column, channel in site.channels.items():
+        text += described(site, column, channel) + f"noise = {channel.noise * stated:.4g}\n"
+    for name, run in site.runs.items():
+        mass, inertia = site.tower.sheave_mass * run.share, site.tower.inertia * run.share
+        text += RUN.format(name=name, role=run.role, mass=mass, inertia=inertia)
     (folder / "campaign.toml").write_text(text, encoding="utf-8")
-    sides = {-1.0: "car", 1.0: "counterweight"}
-    sensors = (SENSOR.format(name=name, side=sides[side], height=height) for name, (side, height) in SENSORS.items())
-    (folder / "tower50.toml").write_text(MODEL + "".join(sensors), encoding="utf-8")
+    model = MODEL.format(title=site.title, p=site.tower)
+    sensors = (SENSOR.format(name=name, side=SIDES[side], height=height) for name, (side, height) in site.sensors.items())
+    (folder / f"{site.name}.toml").write_text(model + "".join(sensors), encoding="utf-8")
+
+
+def described(site: Site, column: str, channel: Channel) -> str:
+    """A channel's part of campaign.toml, without its noise."""
+    sensor = f'sensor = "{channel.source}"\n' if channel.source in site.sensors else ""
+    return CHANNEL.format(column=column, c=channel, sensor=sensor)
 
 
 def table(path: Path, rows: Mapping[str, Floats]) -> None:

@@ -12,7 +12,7 @@ ELEMENT = 0.01
 
 
 class Tower(NamedTuple):
-    """The 50 m tower in SI units. x points down from the bottom landing, y from the car's side to the counterweight's."""
+    """A tower in SI units, by default that of 50 m. x points down from the bottom landing, y from the car's side to the other."""
 
     height: float = 50.0
     pit: float = 1.5
@@ -40,7 +40,7 @@ class Tower(NamedTuple):
     # the sheave's
     eccentricity: float = 0.0
     eccentric_phase: float = 0.0
-    crept: float = 0.0  # rad, how far a sheave of nominal mass has crept towards its stable place while the car stood
+    crept: float = 0.0  # rad, how far the sheave, at its full mass, has crept towards its stable place while the car stood
     bearing_coulomb: float = 0.0
     bearing_viscous: float = 0.0
     guide_coulomb: float = 0.0
@@ -67,8 +67,13 @@ class Tower(NamedTuple):
         """Natural length [m]."""
         return 2.0 * self.pit + self.height + math.pi * self.radius
 
+    def with_sheave(self, share: float) -> "Tower":
+        """The tower with a share of the sheave's mass and inertia; a lighter sheave has crept less."""
+        mass = share * self.sheave_mass
+        phase = self.eccentric_phase + self.crept * mass / self.sheave_mass * math.sin(self.eccentric_phase)
+        return self._replace(sheave_mass=mass, inertia=share * self.inertia, eccentric_phase=phase)
+
     def laid_out(self) -> tuple["Tower", int]:
-        """The tower with an element that divides the rope's length and a sheave that has crept, and the number of nodes."""
+        """The tower with an element that divides the rope's length, and the number of nodes."""
         count = round(self.rope_length / self.element)
-        phase = self.eccentric_phase + self.crept * self.sheave_mass / 120.0 * math.sin(self.eccentric_phase)
-        return self._replace(element=self.rope_length / count, eccentric_phase=phase), count + 1
+        return self._replace(element=self.rope_length / count), count + 1
