@@ -14,6 +14,7 @@ from .campaign import Campaign
 from .compare import Comparison, compare
 from .fit import Fitted, evaluate, refine
 from .hypotheses import CLOCK, NUISANCES, Hypothesis, together
+from .in_step import brought_into_step, refitted
 from .linear import by_effect, point_of
 from .plain import plain
 from .point import Point, gathered, submit
@@ -52,7 +53,7 @@ def prepare(campaign: Campaign, executor: Executor, say: Say = lambda _: None) -
     hypothesis, coefficients = present(campaign)
     start = np.concatenate([np.zeros(len(NUISANCES)), coefficients])
     begun = evaluate(problem, hypothesis, start, Point())
-    return Ground(campaign, problem, begun, refine(problem, hypothesis, start, Point(), begun=begun))
+    return Ground(campaign, problem, begun, refitted(problem, begun, Point()))
 
 
 @dataclass(frozen=True)
@@ -137,7 +138,7 @@ def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fi
     begin[[k for k, one in enumerate(NUISANCES) if one.name in ground.problem.held]] = 0.0
     whole = together(new, *old)
     begin = best_start(ground.problem, whole, begin, Point(), ground.fitted, len(new.directions))
-    fitted = refine(ground.problem, whole, begin, Point())
+    fitted = brought_into_step(ground.problem, refine(ground.problem, whole, begin, Point()), Point())
     return _shaped(ground, new, old, fitted)
 
 

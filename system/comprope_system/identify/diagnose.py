@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .campaign import Campaign
-from .fit import Fitted, evaluate, refine
+from .fit import Fitted, evaluate
 from .hypotheses import NUISANCES, Hypothesis
+from .in_step import refitted
 from .point import Point, Predictions, gathered, submit
 from .problem import Problem, pose
 from .rivals import Say, Trial, rivals, score, second_look
@@ -70,7 +71,7 @@ def diagnose(
     problem = replace(pose(campaign, runs, executor, nominal), ruled_out=frozenset(without))
     say("plant parameters")
     begun = evaluate(problem, None, np.zeros(len(NUISANCES)), origin)
-    none = refine(problem, None, begun.coefficients, origin, begun=begun)
+    none = refitted(problem, begun, origin)
     say("every effect, linearised")
     found = rivals(problem, origin, screen(problem, origin, none, begun), none, say)
     judged = _judged(campaign, problem, nominal, none, found)

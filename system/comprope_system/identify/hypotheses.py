@@ -41,7 +41,7 @@ SIZE = 30.0  # of an effect's typical value: how widely its size is expected; wh
 NUISANCES = (
     _plant("rope.bending_stiffness", 0.15),
     _plant("rope.bending_damping", 0.4),
-    _plant("rope.mass_per_length", 0.06),
+    _plant("rope.mass_per_length", 0.1),
     _plant("rope.axial_stiffness", 0.1),
     _plant("contact.friction_coefficient", 0.3),
     _plant("contact.stiffness", 0.4),

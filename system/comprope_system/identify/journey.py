@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,6 @@ from .diagnose import Diagnosis, diagnose
 from .fit import Fitted
 from .hypotheses import NUISANCES
 from .plain import plain
-from .point import Point
 from .present import grouped, name_of
 from .prune import Without, prune
 
@@ -88,7 +87,7 @@ def journey(campaign: Campaign, executor: Executor, say: Say = lambda _: None, m
     steps.append(_step(ground, "plant refitted", fitted, executor))
     found: list[Diagnosis] = []
     while True:
-        found.append(diagnose(campaign, executor, say, Point(effects=dict(fitted.point.effects))))
+        found.append(diagnose(campaign, executor, say, replace(fitted.point, plant={})))
         if found[-1].verdict is None or len(steps) > most + 1:
             break
         for name, step in _each(ground, found[-1], fitted, say):

@@ -18,6 +18,7 @@ from .campaign import Channel, Run
 Floats = NDArray[np.float64]
 GRID = 0.01  # s between outputs; channels are interpolated by cubic splines in between
 STEP = 0.005  # s, time step of a replay
+COARSEST = 0.3  # of the sheave's radius: elements of a first look
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,11 @@ def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: fl
         values[column] = np.where(hidden, np.nan, whole)
     shown = {column: instrument(changed, column, run.time, value) for column, value in values.items()}
     return Replay(referred(shown, run, channels), rope.count["newton"], rope.count["halved"])
+
+
+def coarseness(model: RopeModel) -> float:
+    """How much longer elements may be for a first look: twice, where that still bends round the sheave."""
+    return 2.0 if 2.0 * model.rope.element_length <= COARSEST * model.sheave.radius else 1.0
 
 
 def instrument(model: RopeModel, column: str, time: Floats, value: Floats) -> Floats:

@@ -19,10 +19,9 @@ from .measures import rms
 from .phases import phases
 from .point import Point, predict
 from .problem import Problem
-from .replay import Floats
+from .replay import Floats, coarseness
 from .residual_force_places import Place, places, responses, splines_of
 from .residual_force_solve import Estimate, estimate, folds
-from .screen import coarseness
 
 GRID = 0.1  # s between the values of a course that are told
 SURE = 0.6  # share above which a sinusoid is worth telling of a course, which is smooth and thus never far from one
@@ -130,7 +129,7 @@ def _sheave_velocities(problem: Problem, point: Point) -> dict[str, Floats]:
     axle = {"axle": Channel.model_validate({"column": "axle", "quantity": "sheave_displacement", "unit": "m"})}
     model, here = problem.campaign.model, problem.held_back(point)
     moved = [replace(run, changes=here.changes(model, run)) for run in problem.runs]
-    jobs = [problem.executor.submit(predict, model, run, axle, coarseness(problem)) for run in moved]
+    jobs = [problem.executor.submit(predict, model, run, axle, coarseness(problem.campaign.model)) for run in moved]
     return {run.file: np.gradient(job.result()["axle"], run.time) for run, job in zip(problem.runs, jobs, strict=True)}
 
 

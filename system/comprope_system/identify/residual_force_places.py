@@ -20,8 +20,7 @@ from comprope.rope.modelfile import with_changes
 from .campaign import Channel, Run
 from .point import Point
 from .problem import Problem
-from .replay import STEP, Floats
-from .screen import coarseness
+from .replay import STEP, Floats, coarseness
 from .sensitivities import replay_with_sensitivities, sticking
 
 PROBE = Path(__file__).with_name("residual_force_probe.py")
@@ -114,7 +113,7 @@ def responses(problem: Problem, point: Point, looked: Sequence[Place]) -> list[l
 
 def _begun(problem: Problem, point: Point, run: Run, looked: Sequence[Place]) -> list[Future[Shown]]:
     """Start the tangent-linear runs of one record, a group of pulses each."""
-    campaign, coarse, splines = problem.campaign, coarseness(problem), splines_of(run)
+    campaign, coarse, splines = problem.campaign, coarseness(problem.campaign.model), splines_of(run)
     changes = problem.held_back(point).changes(campaign.model, run)
     changes["rope.element_length"] = coarse * campaign.model.rope.element_length
     pulses = [(place, float(time), splines.spacing) for place in looked for time in splines.centres]

@@ -15,6 +15,7 @@ from comprope.errors import SimulationError
 
 from .fit import Fitted, refine
 from .hypotheses import NUISANCES, Hypothesis, together
+from .in_step import LEFT, brought_into_step
 from .point import Point
 from .present import shape_of
 from .problem import Problem
@@ -30,7 +31,6 @@ NOTICED = 0.01  # of misfit per datum: less than that is no reason for a fit
 SECOND = 0.85  # of the misfit that the best effect may leave if a second one is to be looked for
 PAIRS = 2  # second effects that are refined with the first
 NEAR = 1.15  # times the best fit's misfit: near enough to it
-LEFT = 1.05  # misfit per datum above which a fit is worth another with more set free
 WORTH = 0.97  # of its misfit that it must fall to
 
 
@@ -70,6 +70,8 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
             found[k] = _on_full_model(problem, origin, one, none, found, say)
     while not found[leader := _leader(found, len(problem.data))].refined and found[leader].fitted.misfit < none.misfit - worth:
         found[leader] = _on_full_model(problem, origin, screened[leader], none, found, say)
+    if found[leader].refined:
+        found[leader] = found[leader]._replace(fitted=brought_into_step(problem, found[leader].fitted, origin))
     return found
 
 

@@ -12,6 +12,7 @@ from .hypotheses import Hypothesis, hypotheses, of_instruments
 from .linear import by_effect, directions_of, unit_points
 from .point import Point
 from .problem import Problem, solve_in_scale
+from .replay import coarseness
 from .scan import scanned
 from .spectrum import frequencies
 from .turning import solve_turned
@@ -21,7 +22,6 @@ LOOKS = 200.0  # independent looks that a campaign is worth
 PRICE = 2.5  # about half the logarithm of LOOKS: of the score, for each parameter of an effect
 TURN = 1.0  # the same, for each run's own phase
 CLOSE = 5.0  # misfit per datum of a fit below which looks are best taken from there
-COARSEST = 0.3  # of the sheave's radius: elements of a first look
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def screen(problem: Problem, origin: Point, none: Fitted, nominal: Fitted | None
 
 def promising_frequencies(problem: Problem, fitted: Fitted) -> tuple[float, ...]:
     """Frequencies [Hz] to try for effects that have one: where swaying would explain most, and the residual's peaks."""
-    peaks, swayed = frequencies(problem, fitted.predictions), scanned(problem, fitted, coarseness(problem))
+    peaks, swayed = frequencies(problem, fitted.predictions), scanned(problem, fitted, coarseness(problem.campaign.model))
     return tuple(dict.fromkeys([*swayed, *peaks]))
 
 
@@ -86,7 +86,7 @@ def _effect_columns(problem: Problem, origin: Point, tried: Sequence[Hypothesis]
     What an effect changes is seen on a coarse mesh as well.
     """
     points = [origin, *(point for one in tried for point in unit_points(origin, one))]
-    moved = iter(problem.attempts(*points, coarse=coarseness(problem)))
+    moved = iter(problem.attempts(*points, coarse=coarseness(problem.campaign.model)))
     if (before := next(moved)) is None:
         return
     y = problem.whitened(before)
@@ -94,12 +94,6 @@ def _effect_columns(problem: Problem, origin: Point, tried: Sequence[Hypothesis]
         found = [next(moved) for _ in one.directions]
         if all(at is not None for at in found):
             yield one, np.column_stack([problem.whitened(at) - y for at in found if at is not None])
-
-
-def coarseness(problem: Problem) -> float:
-    """How much longer elements may be for a first look: twice, where that still bends round the sheave."""
-    model = problem.campaign.model
-    return 2.0 if 2.0 * model.rope.element_length <= COARSEST * model.sheave.radius else 1.0
 
 
 def _looks_at(
