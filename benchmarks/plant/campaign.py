@@ -14,7 +14,7 @@ from .sites import TOWER50, Site
 from .tower import Floats
 from .trip import trip
 
-OFF = {"EI": 0.2, "bending_damping": 0.2, "mass_per_length": 0.05, "friction": 0.2}  # how far the plant may be off the model
+OFF = {"EI": 0.2, "bending_damping": 0.2, "mass_per_length": 0.2, "friction": 0.2}  # how far the plant may be off the model
 AFOOT = 0.5  # s before the trip in which the mean at rest is no longer taken
 
 
