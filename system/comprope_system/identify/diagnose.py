@@ -12,18 +12,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .campaign import Campaign
+from .elsewhere import seen_from_elsewhere
 from .fit import Fitted, evaluate
 from .hypotheses import NUISANCES, Hypothesis
 from .in_step import refitted
 from .point import Point, Predictions, gathered, submit
 from .problem import Problem, pose
-from .rivals import Say, Trial, rivals, score, second_look
+from .rivals import Say, Trial, challenged, least_misfit, rivals, score, second_look
 from .screen import Screened, screen
 
 Floats = NDArray[np.float64]
 
 UNEXPLAINED = 0.04  # of the misfit that is too much: what "none of the known effects" stands for
 UNKNOWN = 10.0  # its price
+MUCH = 2.0  # misfit per datum of the best fit above which effects are looked at from other masses as well
 ALIKE = 0.7  # cosine above which two effects look the same in these data
 
 
@@ -74,6 +76,9 @@ def diagnose(
     none = refitted(problem, begun, origin)
     say("every effect, linearised")
     found = rivals(problem, origin, screen(problem, origin, none, begun), none, say)
+    if least_misfit(found, none) > MUCH * len(problem.data):
+        say("every effect, from other masses of the rope")
+        found = challenged(problem, origin, seen_from_elsewhere(problem, origin, begun), none, found, say)
     judged = _judged(campaign, problem, nominal, none, found)
     if judged.kind == "unknown_effect" and (pair := second_look(problem, origin, found, none, say)):
         return _judged(campaign, problem, nominal, none, [*found, pair])

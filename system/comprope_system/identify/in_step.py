@@ -27,12 +27,12 @@ def in_step(problem: Problem, begun: Fitted, base: Point) -> Floats:
     """Coefficients (k,) with a mass that brings the model into step; those of `begun` where none promises to."""
     here = begun.coefficients
     count, offsets = len(problem.data), _offsets(float(here[MASS]))
-    if _others_refitted(problem, begun, problem.whitened(begun.predictions), here).misfit < LEFT * count:
+    if others_refitted(problem, begun, problem.whitened(begun.predictions), here).misfit < LEFT * count:
         return here
     tried = [here + offset * (np.arange(len(here)) == MASS) for offset in offsets]
     at = problem.attempts(*(point_of(begun.hypothesis, list(x), base) for x in tried), coarse=coarseness(problem.campaign.model))
     found = {
-        offset: _others_refitted(problem, begun, problem.whitened(predictions), x)
+        offset: others_refitted(problem, begun, problem.whitened(predictions), x)
         for offset, x, predictions in zip(offsets, tried, at, strict=True)
         if predictions is not None
     }
@@ -48,7 +48,7 @@ def _offsets(mass: float) -> list[float]:
     return [APART * k for k in range(-steps, steps + 1) if k == 0 or abs(mass + APART * k) <= REACH]
 
 
-def _others_refitted(problem: Problem, begun: Fitted, whitened: Floats, x: Floats) -> Solution:
+def others_refitted(problem: Problem, begun: Fitted, whitened: Floats, x: Floats) -> Solution:
     """All coefficients refitted about x by the derivatives of `begun`."""
     return solve_in_scale(problem.data - whitened, begun.by, directions_of(begun.hypothesis), x)
 

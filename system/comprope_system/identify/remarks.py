@@ -129,9 +129,17 @@ def gaps(group: Sequence[Record]) -> Iterator[str]:
         yield f"{name}: shows values where the rope's end has passed the sensor, in {', '.join(extra)}; they are left out"
 
 
+def unseen_rest(group: Sequence[Record]) -> Iterator[str]:
+    """A channel that counts from a rest at which it shows nothing."""
+    runs = [one.run.file for one in group if not np.isfinite(one.measured[one.run.rest]).any()]
+    if group[0].channel.reference == "rest" and runs:
+        told = f"{group[0].channel.column}: counts from rest, but shows nothing before the trip in {', '.join(runs)}"
+        yield f"{told}: taken there as it is written"
+
+
 Rule = Callable[[Sequence[Record]], Iterator[str]]
 PLAIN_RULES: tuple[Rule, ...] = (sign, unit, drift)
-CHANNEL_RULES: tuple[Rule, ...] = (noise, far_out, gaps)
+CHANNEL_RULES: tuple[Rule, ...] = (noise, far_out, gaps, unseen_rest)
 
 
 # -- runs --------------------------------------------------------------------------------------------

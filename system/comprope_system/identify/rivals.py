@@ -4,7 +4,7 @@ Scores compare misfits as ratios, as if LOOKS independent looks had been taken: 
 same in thousands of samples, which a plain likelihood would count as evidence each.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from math import log
 from typing import NamedTuple
@@ -29,6 +29,8 @@ RIVAL = 1.2  # times the best fit's misfit above which a fit is not worth its ti
 PROMISING = 0.1  # of what the best linear look explains: the least that is worth a fit
 NOTICED = 0.01  # of misfit per datum: less than that is no reason for a fit
 SECOND = 0.85  # of the misfit that the best effect may leave if a second one is to be looked for
+CHALLENGERS = 2  # effects seen from elsewhere that are refined
+PROMISED = 0.7  # of the best fit's misfit: what they must promise
 PAIRS = 2  # second effects that are refined with the first
 NEAR = 1.15  # times the best fit's misfit: near enough to it
 WORTH = 0.97  # of its misfit that it must fall to
@@ -75,10 +77,29 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
     return found
 
 
+def challenged(
+    problem: Problem, origin: Point, screened: Sequence[Screened], none: Fitted, found: Sequence[Trial], say: Say
+) -> list[Trial]:
+    """The trials, or better ones of the same effects that begin where `screened` saw them."""
+    trials = {one.hypothesis.effect: one for one in found}
+    for one in screened[:CHALLENGERS]:
+        if one.misfit < PROMISED * least_misfit(trials.values(), none):
+            trial = _on_full_model(problem, origin, one, none, list(trials.values()), say)
+            trial = trial._replace(fitted=brought_into_step(problem, trial.fitted, origin))
+            known = trials.setdefault(one.hypothesis.effect, trial)
+            trials[one.hypothesis.effect] = min(known, trial, key=lambda own: own.fitted.misfit)
+    return list(trials.values())
+
+
+def least_misfit(found: Iterable[Trial], none: Fitted) -> float:
+    """Misfit of the best fit."""
+    return min((one.fitted.misfit for one in found if one.refined), default=none.misfit)
+
+
 def _may_win(one: Trial, none: Fitted, found: Sequence[Trial]) -> bool:
     """Whether an effect that explains half as much again as its linear look has it would come near the best fit so far."""
     at_best = one.fitted.misfit - 0.5 * (none.misfit - one.fitted.misfit)
-    return at_best < NEAR * min((own.fitted.misfit for own in found if own.refined), default=none.misfit)
+    return at_best < NEAR * least_misfit(found, none)
 
 
 def _leader(found: Sequence[Trial], count: int) -> int:

@@ -50,15 +50,17 @@ def price(hypothesis: Hypothesis, alternatives: int) -> float:
     return PRICE * (1 + len(hypothesis.directions) - turns) + TURN * turns + log(alternatives)
 
 
-def screen(problem: Problem, origin: Point, none: Fitted, nominal: Fitted | None = None) -> list[Screened]:
+def screen(
+    problem: Problem, origin: Point, none: Fitted, nominal: Fitted | None = None, tried: tuple[float, ...] | None = None
+) -> list[Screened]:
     """Every effect's best alternative, most promising first; effects that `origin` has, or that are ruled out, are not.
 
     Looks are taken from the fit `none`, and from `nominal` as well where that fit misses much: it is bent for what it lacks.
+    `tried` are frequencies [Hz] for effects that have one; by default promising ones.
     """
     left_out = {key.split(".")[1] for key in origin.effects} | problem.ruled_out
-    known = hypotheses(problem.campaign.model, promising_frequencies(problem, none))
-    tried = [one for one in known if one.effect not in left_out]
-    columns = dict(_effect_columns(problem, origin, tried))
+    known = hypotheses(problem.campaign.model, promising_frequencies(problem, none) if tried is None else tried)
+    columns = dict(_effect_columns(problem, origin, [one for one in known if one.effect not in left_out]))
     faults = of_instruments(problem.campaign.channels)
     columns |= {one: by_effect(problem, one, origin, none.predictions) for one in faults if one.effect not in left_out}
     looks = looks_from(problem, columns, none, nominal)
