@@ -25,6 +25,7 @@ def executor():
     [
         ("sensor_gain", -1.0, "its sign is probably wrong"),
         ("sensor_gain", 0.1, 'its unit is probably "cm", not "mm"'),
+        ("sensor_delay", 0.12, None),  # s, beside a clock that is fitted as well
         ("sensor_drift", 4e-4, "drifts by about"),  # m/s: 3.6 mm over a record, 12 times the noise
     ],
 )
@@ -36,7 +37,7 @@ def test_a_fault_of_one_channel_is_the_instruments(tmp_path, executor, effect, v
     best = found.ranking[0]
     # Noise of 0.3 mm leaves a gain uncertain by a per cent or two, a drift by less.
     assert best.hypothesis.parameters(best.fitted.effect_coefficients)[key] == pytest.approx(value, rel=0.05)
-    assert any(told in one for one in judge(found, executor).remarks)
+    assert told is None or any(told in one for one in judge(found, executor).remarks)
 
 
 def test_a_stated_noise_that_the_rest_contradicts_is_not_believed():

@@ -40,7 +40,8 @@ class Point:
             changed[key] = changed.get(key, base.get(key, 0.0)) + shift
         if late := self.plant.get(CLOCK, 0.0):
             known = model.effects.sensor_delay or {}
-            changed |= {f"effects.sensor_delay.{column}": known.get(column, 0.0) + late for column in run.values}
+            keys = {f"effects.sensor_delay.{column}": known.get(column, 0.0) for column in run.values}
+            changed |= {key: changed.get(key, delay) + late for key, delay in keys.items()}
         for one in NUISANCES:
             if (coefficient := self.plant.get(one.name, 0.0)) and one.changes:
                 value = base[one.name] * exp(coefficient) if one.relative else base[one.name] + coefficient
