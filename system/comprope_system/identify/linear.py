@@ -107,18 +107,31 @@ def _apart(key: str, a: float, b: float) -> float:
 def by_effect(problem: Problem, hypothesis: Hypothesis, origin: Point, at: Predictions) -> Floats:
     """Derivatives (N, directions) by the coefficients of an effect that is not there yet; `at` are the predictions without it.
 
-    The step is the whole typical value, since some effects do little until they are of some size.
+    Points a step away are those of `stepped`.
     """
     if hypothesis.is_instrument:
         return np.column_stack([_by_instrument(problem, one, origin, at) for one in hypothesis.directions])
+    return by_steps(problem, hypothesis, at, problem.predictions(*stepped(origin, hypothesis)))
+
+
+def stepped(origin: Point, hypothesis: Hypothesis) -> list[Point]:
+    """One point for each direction of an effect, a step away, the others at zero."""
+    count, step = len(hypothesis.directions), _step_of(hypothesis)
+    return [with_effect(origin, hypothesis, [step * (j == k) for j in range(count)]) for k in range(count)]
+
+
+def by_steps(problem: Problem, hypothesis: Hypothesis, at: Predictions, moved: Sequence[Predictions]) -> Floats:
+    """Derivatives (N, directions) from the predictions at the points `stepped`."""
     y = problem.whitened(at)
-    return np.column_stack([problem.whitened(one) - y for one in problem.predictions(*unit_points(origin, hypothesis))])
+    return np.column_stack([problem.whitened(one) - y for one in moved]) / _step_of(hypothesis)
 
 
-def unit_points(origin: Point, hypothesis: Hypothesis) -> list[Point]:
-    """One point for each direction of an effect: its typical value, the others at zero."""
-    count = len(hypothesis.directions)
-    return [with_effect(origin, hypothesis, [float(j == k) for j in range(count)]) for k in range(count)]
+def _step_of(hypothesis: Hypothesis) -> float:
+    """A step in coefficients: the whole typical value, since some effects do little until they are of some size.
+
+    What oscillates does as much at any size, but at its typical one a resonance may swing the rope by metres.
+    """
+    return 0.1 if hypothesis.polar else 1.0
 
 
 def _by_instrument(problem: Problem, direction: Direction, here: Point, at: Predictions) -> Floats:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .fit import Fitted
 from .hypotheses import Hypothesis, hypotheses, of_instruments
-from .linear import by_effect, directions_of, unit_points
+from .linear import by_effect, by_steps, directions_of, stepped
 from .point import Point
 from .problem import Problem, solve_in_scale
 from .replay import coarseness
@@ -87,15 +87,14 @@ def _effect_columns(problem: Problem, origin: Point, tried: Sequence[Hypothesis]
 
     What an effect changes is seen on a coarse mesh as well.
     """
-    points = [origin, *(point for one in tried for point in unit_points(origin, one))]
+    points = [origin, *(point for one in tried for point in stepped(origin, one))]
     moved = iter(problem.attempts(*points, coarse=coarseness(problem.campaign.model)))
     if (before := next(moved)) is None:
         return
-    y = problem.whitened(before)
     for one in tried:
-        found = [next(moved) for _ in one.directions]
-        if all(at is not None for at in found):
-            yield one, np.column_stack([problem.whitened(at) - y for at in found if at is not None])
+        found = [at for _ in one.directions if (at := next(moved)) is not None]
+        if len(found) == len(one.directions):
+            yield one, by_steps(problem, one, before, found)
 
 
 def _looks_at(
