@@ -134,7 +134,8 @@ def second_look(problem: Problem, origin: Point, found: Sequence[Trial], none: F
     say(f"{first.hypothesis.effect} and a second effect, linearised")
     screened = screen(problem, first.point, first)
     pairs = [pair for one in screened[:PAIRS] if (pair := _pair(problem, origin, first, one, say))]
-    return min(pairs, key=lambda one: one.fitted.misfit, default=None)
+    best = min(pairs, key=lambda one: one.fitted.misfit, default=None)
+    return best and best._replace(fitted=brought_into_step(problem, best.fitted, origin))
 
 
 def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say: Say) -> Trial | None:
