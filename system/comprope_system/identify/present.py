@@ -97,9 +97,9 @@ def shape_of(one: Hypothesis, longest: float) -> Hypothesis | None:
         if key not in one.fixed or quantity.name not in {*REGISTRY[one.effect].probes, "frequency"}:
             continue
         value = one.fixed[key]
-        size = SLOW / longest if quantity.name == "frequency" else YIELD * value
+        size, lowest = (SLOW / longest, -1.0 / SLOW) if quantity.name == "frequency" else (YIELD * value, -0.9 / YIELD)
         bounds = sorted(((quantity.minimum - value) / size, (quantity.maximum - value) / size))
-        directions.append((Direction(key, {key: size}, 5.0, max(bounds[0], -4.5), bounds[1]), value))
+        directions.append((Direction(key, {key: size}, 5.0, max(bounds[0], lowest), bounds[1]), value))
     if not directions:
         return None
     direction, value = directions[0]
