@@ -86,6 +86,16 @@ def test_added_the_effect_acts_in_each_run_from_its_own_angle_on(turned, executo
     assert size.value == pytest.approx(2e-3, abs=5e-5) and size.deviation < 5e-5
 
 
+def test_an_effect_is_found_on_a_rope_of_quite_another_mass(tmp_path, executor, monkeypatch):
+    """Where much swings, the misfit without the effect does not tell the mass: it is found with the effect."""
+    monkeypatch.setitem(virtual_lift.PLANT, "rope.mass_per_length", 1.0)
+    found = diagnose(load_campaign(virtual_lift.campaign(tmp_path / "light", {RUNOUT: 2e-3, PHASE: 0.7})), executor)
+    best = found.ranking[0].fitted
+    assert found.verdict == "sheave_eccentricity" and best.misfit < 1.2 * len(found.problem.data)
+    assert best.point.effects[RUNOUT] == pytest.approx(2e-3, rel=0.03)
+    assert plant_results(found.campaign, best)["rope.mass_per_length"].value == pytest.approx(1.0, rel=0.005)
+
+
 def test_samples_far_from_their_neighbours_are_no_error_of_the_model(tmp_path, executor):
     campaign = load_campaign(virtual_lift.campaign(tmp_path / "spiked", {}))
     clean = compare(campaign, executor)
