@@ -13,7 +13,7 @@ from .in_step import MASS, others_refitted
 from .linear import point_of
 from .point import Point
 from .problem import Problem
-from .screen import Screened, screen
+from .screen import Screened, best_of_each, screen
 from .spectrum import frequencies
 
 MASSES = (-0.2, -0.1, 0.1, 0.2)  # logarithms of the rope's mass over the data sheet's
@@ -25,10 +25,7 @@ def seen_from_elsewhere(problem: Problem, origin: Point, begun: Fitted) -> list[
     for stand in _stands(problem, begun, origin):
         # Where a rope is shaken it answers at that frequency, whatever its mass.
         looks += screen(problem, _beside(origin, stand), stand, tried=frequencies(problem, stand.predictions))
-    best: dict[str, Screened] = {}
-    for look in sorted(looks, key=lambda one: one.strained):
-        best.setdefault(look.hypothesis.effect, look)
-    return list(best.values())
+    return best_of_each(looks)
 
 
 def _stands(problem: Problem, begun: Fitted, origin: Point) -> Iterator[Fitted]:

@@ -63,7 +63,11 @@ def screen(
     columns = dict(_effect_columns(problem, origin, [one for one in known if one.effect not in left_out]))
     faults = of_instruments(problem.campaign.channels)
     columns |= {one: by_effect(problem, one, origin, none.predictions) for one in faults if one.effect not in left_out}
-    looks = looks_from(problem, columns, none, nominal)
+    return best_of_each(looks_from(problem, columns, none, nominal))
+
+
+def best_of_each(looks: Sequence[Screened]) -> list[Screened]:
+    """Every effect's most promising look, the most promising effect first."""
     best: dict[str, Screened] = {}
     for look in sorted(looks, key=lambda one: one.strained):
         best.setdefault(look.hypothesis.effect, look)
