@@ -73,7 +73,7 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
     while not found[leader := _leader(found, len(problem.data))].refined and found[leader].fitted.misfit < none.misfit - worth:
         found[leader] = _on_full_model(problem, origin, screened[leader], none, found, say)
     if found[leader].refined:
-        found[leader] = found[leader]._replace(fitted=brought_into_step(problem, found[leader].fitted, origin))
+        found[leader] = _finished(problem, origin, found[leader])
     return found
 
 
@@ -84,11 +84,16 @@ def challenged(
     trials = {one.hypothesis.effect: one for one in found}
     for one in screened[:CHALLENGERS]:
         if one.misfit < PROMISED * least_misfit(trials.values(), none):
-            trial = _on_full_model(problem, origin, one, none, list(trials.values()), say)
-            trial = trial._replace(fitted=brought_into_step(problem, trial.fitted, origin))
+            trial = _finished(problem, origin, _on_full_model(problem, origin, one, none, list(trials.values()), say))
             known = trials.setdefault(one.hypothesis.effect, trial)
             trials[one.hypothesis.effect] = min(known, trial, key=lambda own: own.fitted.misfit)
     return list(trials.values())
+
+
+def _finished(problem: Problem, origin: Point, one: Trial) -> Trial:
+    """The trial with another mass, if that brings it into step, and what shapes its effects free there."""
+    moved = brought_into_step(problem, one.fitted, origin)
+    return one if moved is one.fitted else one._replace(fitted=shaped(problem, origin, moved))
 
 
 def least_misfit(found: Iterable[Trial], none: Fitted) -> float:
@@ -135,7 +140,7 @@ def second_look(problem: Problem, origin: Point, found: Sequence[Trial], none: F
     screened = screen(problem, first.point, first)
     pairs = [pair for one in screened[:PAIRS] if (pair := _pair(problem, origin, first, one, say))]
     best = min(pairs, key=lambda one: one.fitted.misfit, default=None)
-    return best and best._replace(fitted=brought_into_step(problem, best.fitted, origin))
+    return best and _finished(problem, origin, best)
 
 
 def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say: Say) -> Trial | None:
@@ -152,8 +157,10 @@ def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say:
 def shaped(problem: Problem, origin: Point, fitted: Fitted, rival: float = float("inf")) -> Fitted:
     """The fit with what shapes its effects free as well (a frequency, a yield curvature), where more than noise is left."""
     assert fitted.hypothesis is not None
+    parts = fitted.hypothesis.parts or (fitted.hypothesis,)
+    names = [part.effect for part in parts]  # twice that of an effect whose shape is free already
     longest = max(float(run.time[-1] - run.time[0]) for run in problem.runs)
-    shapes = [shape for part in fitted.hypothesis.parts or (fitted.hypothesis,) if (shape := shape_of(part, longest))]
+    shapes = [shape for part in parts if names.count(part.effect) == 1 and (shape := shape_of(part, longest))]
     if not shapes or not LEFT * len(problem.data) < fitted.misfit < rival:
         return fitted
     whole = replace(together(fitted.hypothesis, *shapes), effect=fitted.hypothesis.effect)
