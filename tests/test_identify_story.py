@@ -6,21 +6,26 @@ which the model knows nothing. It fails here; this is missing; it is added; the 
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from comprope.rope.effects import REGISTRY
 from comprope.rope.modelfile import load
 from comprope_system import cli
+from comprope_system.identify import journey as steps
 from comprope_system.identify.add import beside_the_model, heading, prepare
 from comprope_system.identify.campaign import load_campaign
 from comprope_system.identify.clues import clues
 from comprope_system.identify.compare import compare
 from comprope_system.identify.diagnose import diagnose
+from comprope_system.identify.hypotheses import NUISANCES, of_effect, together
 from comprope_system.identify.jobs import threads
 from comprope_system.identify.journey import journey
 from comprope_system.identify.measures import ORDERS
 from comprope_system.identify.next_run import candidates, rivals
+from comprope_system.identify.present import shapes_of
 from comprope_system.identify.results import judge, to_json
 
 from . import virtual_lift
@@ -168,6 +173,21 @@ def test_the_journey_ends_there_and_tells_what_each_step_bought(travelled):
     assert travelled.pruned == () and [one.effect for one in travelled.without] == ["sheave_eccentricity"]
     assert not travelled.without[0].could_go
     json.dumps(travelled.to_json(), allow_nan=False)
+
+
+def test_an_effect_with_its_shape_freed_is_one_step(monkeypatch):
+    """Hysteresis with its yield curvature fitted as well stands as two parts in the hypothesis and is added once."""
+    effect = of_effect(REGISTRY["bending_hysteresis"], ())[0]
+    whole = together(effect, *shapes_of((effect,), 9.0))
+    coefficients = np.arange(len(NUISANCES) + 2.0)
+    own = [float(one) for one in coefficients[len(NUISANCES) :]]
+    best = SimpleNamespace(hypothesis=whole, coefficients=coefficients, effect_coefficients=own)
+    found = SimpleNamespace(ranking=[SimpleNamespace(fitted=best)])
+    added = []
+    monkeypatch.setattr(steps, "fit_new", lambda ground, new, start, known: added.append((new, start)))
+    assert [name for name, _ in steps._each(None, found, None, lambda _: None)] == ["bending_hysteresis"]
+    ((new, start),) = added
+    assert new.parts == whole.parts and np.array_equal(start, coefficients)
 
 
 # -- and a lift in which nothing is hidden -----------------------------------------------------------

@@ -18,7 +18,7 @@ from .in_step import brought_into_step, refitted
 from .linear import by_effect, point_of
 from .plain import plain
 from .point import Point, gathered, submit
-from .present import alternatives, grouped, name_of, present, shape_of, short_names
+from .present import alternatives, grouped, name_of, present, shapes_of, short_names
 from .problem import Problem, pose
 from .screen import looks_from, promising_frequencies
 from .starts import best_start
@@ -143,8 +143,7 @@ def fit_new(ground: Ground, new: Hypothesis, start: Floats, known: Fitted) -> Fi
 
 
 def _shaped(ground: Ground, new: Hypothesis, old: list[Hypothesis], fitted: Fitted) -> Fitted:
-    longest = max(float(run.time[-1] - run.time[0]) for run in ground.problem.runs)
-    shapes = [shape for part in (new.parts or (new,)) if (shape := shape_of(part, longest))]
+    shapes = shapes_of(new.parts or (new,), ground.problem.longest)
     if not shapes:
         return fitted
     begin = np.concatenate([fitted.coefficients, np.zeros(len(shapes))])

@@ -14,9 +14,9 @@ from .campaign import Campaign
 from .compare import Comparison, compare
 from .diagnose import Diagnosis, diagnose
 from .fit import Fitted
-from .hypotheses import NUISANCES
+from .hypotheses import NUISANCES, together
 from .plain import plain
-from .present import grouped, name_of
+from .present import grouped
 from .prune import Without, prune
 
 MOST = 4  # effects that a journey adds
@@ -109,7 +109,8 @@ def _each(ground: Ground, found: Diagnosis, fitted: Fitted, say: Say) -> Iterato
     """The verdict's effects added one after the other, so that each shows what it buys."""
     best = found.ranking[0].fitted
     plant = best.coefficients[: len(NUISANCES)]
-    for part, own in found.ranking[0].hypothesis.shares(best.effect_coefficients):
-        say(f"{name_of(part)}, with all others")
-        fitted = fit_new(ground, part, np.concatenate([plant, own]), fitted)
-        yield name_of(part), fitted
+    for name, parts in grouped(best.hypothesis, best.effect_coefficients).items():
+        say(f"{name}, with all others")
+        start = np.concatenate([plant, *(own for _, own in parts)])
+        fitted = fit_new(ground, together(*(part for part, _ in parts)), start, fitted)
+        yield name, fitted

@@ -106,6 +106,12 @@ def shape_of(one: Hypothesis, longest: float) -> Hypothesis | None:
     return Hypothesis(one.effect, (direction,), base=value)
 
 
+def shapes_of(parts: Sequence[Hypothesis], longest: float) -> list[Hypothesis]:
+    """What else can be fitted of those effects whose shape is not free already, as a part of its own."""
+    names = [part.effect for part in parts]
+    return [shape for part in parts if names.count(part.effect) == 1 and (shape := shape_of(part, longest))]
+
+
 def require_effects(names: Sequence[str]) -> None:
     """Raise InputError, for all at once, if some of the names are no effects."""
     known = [*REGISTRY, *INSTRUMENT]

@@ -45,6 +45,11 @@ class Problem:
         files = np.repeat([one.run for one in self.parts], [len(one.data) for one in self.parts])
         return np.array([files == run.file for run in self.runs])
 
+    @property
+    def longest(self) -> float:
+        """Duration of the longest record [s]."""
+        return max(float(run.time[-1] - run.time[0]) for run in self.runs)
+
     def predictions(self, *points: Point) -> list[Predictions]:
         """The model's channels at some points, computed side by side."""
         jobs = [submit(self.campaign, self.runs, self.held_back(point), self.executor) for point in points]

@@ -17,7 +17,7 @@ from .fit import Fitted, refine
 from .hypotheses import NUISANCES, Hypothesis, together
 from .in_step import LEFT, brought_into_step
 from .point import Point
-from .present import shape_of
+from .present import shapes_of
 from .problem import Problem
 from .screen import LOOKS, Screened, price, screen
 from .starts import best_start
@@ -157,10 +157,7 @@ def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say:
 def shaped(problem: Problem, origin: Point, fitted: Fitted, rival: float = float("inf")) -> Fitted:
     """The fit with what shapes its effects free as well (a frequency, a yield curvature), where more than noise is left."""
     assert fitted.hypothesis is not None
-    parts = fitted.hypothesis.parts or (fitted.hypothesis,)
-    names = [part.effect for part in parts]  # twice that of an effect whose shape is free already
-    longest = max(float(run.time[-1] - run.time[0]) for run in problem.runs)
-    shapes = [shape for part in parts if names.count(part.effect) == 1 and (shape := shape_of(part, longest))]
+    shapes = shapes_of(fitted.hypothesis.parts or (fitted.hypothesis,), problem.longest)
     if not shapes or not LEFT * len(problem.data) < fitted.misfit < rival:
         return fitted
     whole = replace(together(fitted.hypothesis, *shapes), effect=fitted.hypothesis.effect)

@@ -35,7 +35,7 @@ def scanned(problem: Problem, fitted: Fitted, coarse: float) -> tuple[float, ...
     campaign = problem.campaign
     if EFFECT not in names_of(campaign.model):
         return ()
-    grid = np.arange(LOWEST, HIGHEST, SPACING / max(float(run.time[-1] - run.time[0]) for run in problem.runs))
+    grid = np.arange(LOWEST, HIGHEST, SPACING / problem.longest)
     length = {"rope.element_length": coarse * campaign.model.rope.element_length}
     jobs = []
     for run in problem.runs:
