@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from .fit import Fitted
 from .hypotheses import NUISANCES
-from .in_step import MASS, others_refitted
+from .in_step import MASS, at_masses
 from .linear import point_of
 from .point import Point
 from .problem import Problem
@@ -30,14 +30,9 @@ def seen_from_elsewhere(problem: Problem, origin: Point, begun: Fitted) -> list[
 
 def _stands(problem: Problem, begun: Fitted, origin: Point) -> Iterator[Fitted]:
     """The model with other masses; its misfit is that with all else refitted, by the derivatives of `begun`."""
-    for mass in MASSES:
-        x = begun.coefficients.copy()
-        x[MASS] = mass
+    for x, predictions, solution in at_masses(problem, begun, origin, MASSES):
         point = point_of(begun.hypothesis, list(x), origin)
-        predictions = problem.attempts(point)[0]
-        if predictions is not None:
-            misfit = others_refitted(problem, begun, problem.whitened(predictions), x).misfit
-            yield replace(begun, coefficients=x, point=point, predictions=predictions, misfit=misfit)
+        yield replace(begun, coefficients=x, point=point, predictions=predictions, misfit=solution.misfit)
 
 
 def _beside(origin: Point, stand: Fitted) -> Point:

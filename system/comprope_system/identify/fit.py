@@ -69,7 +69,7 @@ def refine(
     for done in range(ROUNDS):
         # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
         scale = scale_of(best.misfit, count)
-        solution = solve(problem.data - problem.whitened(best.predictions), best.by, directions, best.coefficients, scale)
+        solution = solve(problem.residual(best.predictions), best.by, directions, best.coefficients, scale)
         best = replace(best, covariance=solution.covariance)
         if solution.misfit > rival * (1.0 if done >= TRUSTED else HOPELESS):
             break
@@ -93,7 +93,7 @@ def evaluate(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: P
 def _fitted(
     problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point, predictions: Predictions, by: Floats
 ) -> Fitted:
-    residual = problem.data - problem.whitened(predictions)
+    residual = problem.residual(predictions)
     penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, directions_of(hypothesis), strict=True)))
     point, none = point_of(hypothesis, list(x), base), np.zeros((len(x), len(x)))
     return Fitted(hypothesis, point, predictions, x, none, by, float(residual @ residual), penalty)

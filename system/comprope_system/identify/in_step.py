@@ -5,13 +5,15 @@ by derivatives, but to more damping, where there is no swing to be out of step w
 other, and for each all else is refitted by its derivatives.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from .fit import Fitted, refine
 from .hypotheses import NUISANCES
 from .linear import directions_of, point_of
-from .point import Point
+from .point import Point, Predictions
 from .problem import Problem, Solution, solve_in_scale
 from .replay import coarseness
 
@@ -23,45 +25,54 @@ PROMISING = 0.9  # of the misfit: what another mass must promise
 LEFT = 1.05  # misfit per datum above which there is something to look for
 
 
-def in_step(problem: Problem, begun: Fitted, base: Point) -> Floats:
-    """Coefficients (k,) with a mass that brings the model into step; those of `begun` where none promises to."""
+def in_step(problem: Problem, begun: Fitted, base: Point) -> Floats | None:
+    """Coefficients (k,) with a mass that brings the model into step; None where no other mass promises to."""
     here = begun.coefficients
-    count, offsets = len(problem.data), _offsets(float(here[MASS]))
-    if others_refitted(problem, begun, problem.whitened(begun.predictions), here).misfit < LEFT * count:
-        return here
-    tried = [here + offset * (np.arange(len(here)) == MASS) for offset in offsets]
-    at = problem.attempts(*(point_of(begun.hypothesis, list(x), base) for x in tried), coarse=coarseness(problem.campaign.model))
-    found = {
-        offset: others_refitted(problem, begun, problem.whitened(predictions), x)
-        for offset, x, predictions in zip(offsets, tried, at, strict=True)
-        if predictions is not None
-    }
-    best = min(found, key=lambda offset: found[offset].misfit, default=0.0)
-    if 0.0 not in found or found[best].misfit > PROMISING * found[0.0].misfit:
-        return here
+    present = float(here[MASS])
+    if _refitted(problem, begun, begun.predictions, here).misfit < LEFT * len(problem.data):
+        return None
+    looks = at_masses(problem, begun, base, _masses(present), coarseness(problem.campaign.model))
+    found = {float(x[MASS]): solution for x, _, solution in looks}
+    best = min(found, key=lambda mass: found[mass].misfit, default=present)
+    if present not in found or found[best].misfit > PROMISING * found[present].misfit:
+        return None
     return found[best].coefficients
 
 
-def _offsets(mass: float) -> list[float]:
-    """Steps to masses within REACH of the data sheet's, none among them."""
+def _masses(present: float) -> list[float]:
+    """Masses within REACH of the data sheet's, and the present one."""
     steps = int(2.0 * REACH / APART)
-    return [APART * k for k in range(-steps, steps + 1) if k == 0 or abs(mass + APART * k) <= REACH]
+    return [present + APART * k for k in range(-steps, steps + 1) if k == 0 or abs(present + APART * k) <= REACH]
 
 
-def others_refitted(problem: Problem, begun: Fitted, whitened: Floats, x: Floats) -> Solution:
+def at_masses(
+    problem: Problem, begun: Fitted, base: Point, masses: Sequence[float], coarse: float = 1.0
+) -> list[tuple[Floats, Predictions, Solution]]:
+    """The fit `begun` with each of some masses: coefficients (k,), predictions, and all refitted by the derivatives of `begun`.
+
+    Masses with which the model cannot be simulated are left out.
+    """
+    tried = [np.where(np.arange(len(begun.coefficients)) == MASS, mass, begun.coefficients) for mass in masses]
+    at = problem.attempts(*(point_of(begun.hypothesis, list(x), base) for x in tried), coarse=coarse)
+    return [(x, seen, _refitted(problem, begun, seen, x)) for x, seen in zip(tried, at, strict=True) if seen is not None]
+
+
+def _refitted(problem: Problem, begun: Fitted, predictions: Predictions, x: Floats) -> Solution:
     """All coefficients refitted about x by the derivatives of `begun`."""
-    return solve_in_scale(problem.data - whitened, begun.by, directions_of(begun.hypothesis), x)
+    return solve_in_scale(problem.residual(predictions), begun.by, directions_of(begun.hypothesis), x)
 
 
 def refitted(problem: Problem, begun: Fitted, base: Point) -> Fitted:
     """The best point near `begun`, or near where another mass brings it into step."""
     start = in_step(problem, begun, base)
-    return refine(problem, begun.hypothesis, start, base, begun=begun if start is begun.coefficients else None)
+    if start is None:
+        return refine(problem, begun.hypothesis, begun.coefficients, base, begun=begun)
+    return refine(problem, begun.hypothesis, start, base)
 
 
 def brought_into_step(problem: Problem, fitted: Fitted, base: Point) -> Fitted:
     """The fit, or a better one with another mass."""
     start = in_step(problem, fitted, base)
-    if start is fitted.coefficients:
+    if start is None:
         return fitted
     return min(fitted, refine(problem, fitted.hypothesis, start, base, fitted.misfit), key=lambda one: one.misfit)

@@ -54,14 +54,19 @@ def submit(
     campaign: Campaign, runs: Sequence[Run], point: Point, executor: Executor, coarse: float = 1.0
 ) -> list[Future[dict[str, Floats]]]:
     """Start the replays of some runs at a point, with elements and steps `coarse` times as long."""
-    moved = [replace(run, changes=point.changes(campaign.model, run)) for run in runs]
-    return [executor.submit(predict, campaign.model, run, campaign.channels, coarse) for run in moved]
+    there = [moved(campaign.model, run, point, coarse) for run in runs]
+    return [executor.submit(predict, campaign.model, run, campaign.channels, coarse * STEP) for run in there]
 
 
-def predict(model: RopeModel, run: Run, channels: Mapping[str, Channel], coarse: float = 1.0) -> dict[str, Floats]:
-    """Channels of one run as the model has them."""
+def moved(model: RopeModel, run: Run, point: Point, coarse: float = 1.0) -> Run:
+    """The run with all that differs from the model file at a point, with elements `coarse` times as long."""
     length = {"rope.element_length": coarse * model.rope.element_length} if coarse != 1.0 else {}
-    return replay(model, replace(run, changes=run.changes | length), channels, coarse * STEP).values
+    return replace(run, changes=point.changes(model, run) | length)
+
+
+def predict(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: float) -> dict[str, Floats]:
+    """Channels of one run as the model has them."""
+    return replay(model, run, channels, step).values
 
 
 def gathered(runs: Sequence[Run], jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions:

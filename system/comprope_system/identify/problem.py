@@ -70,6 +70,10 @@ class Problem:
         """Predictions (N,) in the units of `data`."""
         return stack(self.parts, predictions)
 
+    def residual(self, predictions: Mapping[tuple[str, str], Floats]) -> Floats:
+        """What predictions leave of `data` (N,)."""
+        return self.data - self.whitened(predictions)
+
     def column(self, values: Mapping[tuple[str, str], Floats]) -> Floats:
         """Like `whitened`, for some channels only: zero for the others."""
         none = {(one.run, one.column): np.zeros(len(one.of)) for one in self.parts}

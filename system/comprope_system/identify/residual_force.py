@@ -17,7 +17,7 @@ from .fit import Fitted
 from .hypotheses import NUISANCES
 from .measures import rms
 from .phases import phases
-from .point import Point, predict
+from .point import Point, submit
 from .problem import Problem
 from .replay import Floats, coarseness
 from .residual_force_places import Place, places, responses, splines_of
@@ -101,7 +101,7 @@ def residual_force(problem: Problem, fitted: Fitted, say: Say = lambda _: None) 
         speeds = _sheave_velocities(problem, fitted.point)
     except SimulationError:
         return None
-    r = problem.data - problem.whitened(fitted.predictions)
+    r = problem.residual(fitted.predictions)
     priors = np.array([one.prior for one in NUISANCES])
     plant, moved = fitted.by * priors, fitted.coefficients / priors
     times = {run.file: run.time for run in problem.runs}
@@ -127,9 +127,8 @@ def _suspect(problem: Problem, place: Place, matrices: Sequence[Floats], found: 
 def _sheave_velocities(problem: Problem, point: Point) -> dict[str, Floats]:
     """The sheave's vertical velocity (n,) [m/s] in each run of the refitted model, up positive."""
     axle = {"axle": Channel.model_validate({"column": "axle", "quantity": "sheave_displacement", "unit": "m"})}
-    model, here = problem.campaign.model, problem.held_back(point)
-    moved = [replace(run, changes=here.changes(model, run)) for run in problem.runs]
-    jobs = [problem.executor.submit(predict, model, run, axle, coarseness(problem.campaign.model)) for run in moved]
+    watched = replace(problem.campaign, channels=axle)
+    jobs = submit(watched, problem.runs, problem.held_back(point), problem.executor, coarseness(watched.model))
     return {run.file: np.gradient(job.result()["axle"], run.time) for run, job in zip(problem.runs, jobs, strict=True)}
 
 

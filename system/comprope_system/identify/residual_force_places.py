@@ -7,7 +7,7 @@ effect, which no model has but the one that is asked here.
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +18,7 @@ from comprope.rope.model import values_of
 from comprope.rope.modelfile import with_changes
 
 from .campaign import Channel, Run
-from .point import Point
+from .point import Point, moved
 from .problem import Problem
 from .replay import STEP, Floats, coarseness
 from .sensitivities import replay_with_sensitivities, sticking
@@ -114,12 +114,10 @@ def responses(problem: Problem, point: Point, looked: Sequence[Place]) -> list[l
 def _begun(problem: Problem, point: Point, run: Run, looked: Sequence[Place]) -> list[Future[Shown]]:
     """Start the tangent-linear runs of one record, a group of pulses each."""
     campaign, coarse, splines = problem.campaign, coarseness(problem.campaign.model), splines_of(run)
-    changes = problem.held_back(point).changes(campaign.model, run)
-    changes["rope.element_length"] = coarse * campaign.model.rope.element_length
     pulses = [(place, float(time), splines.spacing) for place in looked for time in splines.centres]
     groups = [pulses[first : first + GROUP] for first in range(0, len(pulses), GROUP)]
-    model, moved = probed(campaign.model), replace(run, changes=changes)
-    return [problem.executor.submit(answers, model, moved, campaign.channels, some, coarse) for some in groups]
+    model, there = probed(campaign.model), moved(campaign.model, run, problem.held_back(point), coarse)
+    return [problem.executor.submit(answers, model, there, campaign.channels, some, coarse) for some in groups]
 
 
 def _gathered(problem: Problem, run: Run, looked: Sequence[Place], jobs: Sequence[Future[Shown]]) -> list[Floats]:

@@ -45,7 +45,7 @@ def judge(diagnosis: Diagnosis, executor: Executor, base: Point | None = None) -
 def to_json(judged: Judged) -> dict[str, Any]:
     """The result as in the contract, with more beside it."""
     diagnosis, count = judged.diagnosis, max(len(judged.diagnosis.problem.data), 1)
-    nominal = diagnosis.problem.data - diagnosis.problem.whitened(diagnosis.nominal)
+    nominal = diagnosis.problem.residual(diagnosis.nominal)
     found = {
         "campaign": diagnosis.campaign.name,
         "verdict": diagnosis.verdict,

@@ -5,7 +5,6 @@ drives it. Here each run has an amplitude and a phase of its own, and the plant 
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -18,6 +17,7 @@ from comprope.rope.effects import RopeModel, names_of
 from .campaign import Channel, Run
 from .fit import Fitted
 from .linear import directions_of
+from .point import moved
 from .problem import Problem
 from .replay import STEP
 from .samples import Part
@@ -36,12 +36,11 @@ def scanned(problem: Problem, fitted: Fitted, coarse: float) -> tuple[float, ...
     if EFFECT not in names_of(campaign.model):
         return ()
     grid = np.arange(LOWEST, HIGHEST, SPACING / problem.longest)
-    length = {"rope.element_length": coarse * campaign.model.rope.element_length}
     jobs = []
     for run in problem.runs:
-        moved = replace(run, changes=problem.held_back(fitted.point).changes(campaign.model, run) | length)
+        there = moved(campaign.model, run, problem.held_back(fitted.point), coarse)
         parts = [one for one in problem.parts if one.run == run.file]
-        jobs.append(problem.executor.submit(responses, campaign.model, moved, campaign.channels, parts, grid, coarse))
+        jobs.append(problem.executor.submit(responses, campaign.model, there, campaign.channels, parts, grid, coarse))
     try:
         found = explained(problem, fitted, [job.result() for job in jobs])
     except SimulationError:  # elements or steps too long for this rope
@@ -72,7 +71,7 @@ def explained(problem: Problem, fitted: Fitted, responses: Sequence[Floats]) -> 
     """How much of the squares that a fit leaves a sway of each frequency takes away (frequencies,)."""
     others, count = directions_of(fitted.hypothesis), len(problem.data)
     plant, _ = np.linalg.qr(np.vstack([fitted.by, np.diag([1.0 / one.prior for one in others])]))
-    left = _beside(plant, np.append(problem.data - problem.whitened(fitted.predictions), np.zeros(len(others))))
+    left = _beside(plant, np.append(problem.residual(fitted.predictions), np.zeros(len(others))))
     found = []
     for k in range(responses[0].shape[1]):
         columns = np.zeros((count + len(others), 2 * len(responses)))

@@ -108,7 +108,7 @@ def _looks_at(
 
     What it would leave is told as a share of what `none` leaves.
     """
-    others, residual, begin = directions_of(at.hypothesis), problem.data - problem.whitened(at.predictions), at.coefficients
+    others, residual, begin = directions_of(at.hypothesis), problem.residual(at.predictions), at.coefficients
     weights = np.vstack([at.by, np.diag([1.0 / p.prior for p in others])])
     padded = np.vstack([by, np.zeros((len(others), by.shape[1]))])
     sideways = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(by)]

@@ -76,4 +76,4 @@ def alone(hypothesis: Hypothesis, x: Floats, new: int | None = None) -> list[Flo
 def misfits(problem: Problem, hypothesis: Hypothesis | None, tried: Sequence[Floats], base: Point) -> list[float]:
     """Sums of squares at some coefficients (k,); infinite where the model cannot be simulated."""
     found = problem.attempts(*(point_of(hypothesis, list(x), base) for x in tried))
-    return [float(np.sum((problem.data - problem.whitened(at)) ** 2)) if at else float("inf") for at in found]
+    return [float(np.sum(problem.residual(at) ** 2)) if at else float("inf") for at in found]

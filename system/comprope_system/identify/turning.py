@@ -32,7 +32,7 @@ def solve_turned(problem: Problem, at: Fitted, by: Floats, hypothesis: Hypothesi
     `by` (N, 2) are derivatives by the cosine and the sine.
     """
     pairs = np.hstack([by * rows[:, None] for rows in problem.rows_of_runs])
-    count, others, residual = len(problem.runs), directions_of(at.hypothesis), problem.data - problem.whitened(at.predictions)
+    count, others, residual = len(problem.runs), directions_of(at.hypothesis), problem.residual(at.predictions)
     begin = np.concatenate([at.coefficients, np.zeros(2 * count)])
     solution = solve_in_scale(residual, np.hstack([at.by, pairs]), [*others, *hypothesis.directions * count], begin)
     z = np.array([complex(*pair) for pair in solution.coefficients[len(others) :].reshape(count, 2)])
