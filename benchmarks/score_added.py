@@ -1,11 +1,10 @@
 """What `comprope add` makes of a diagnosis's verdict: errors before and after, and whether its intervals hold the truth."""
 
-import json
-import subprocess
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+from score_command import command
 
 Json = dict[str, Any]
 PLANT = {  # what the truth calls them
@@ -17,12 +16,9 @@ ABSOLUTE = ("phase",)  # the tower's angles are not counted from where the model
 
 def added(campaign: Path, said: Json, truth: Json, jobs: int, limit: float) -> Json:
     """Errors with the verdict's effect added, and for each value that is known (value, deviation, low, high, truth)."""
-    out = campaign.parent / "added.json"
-    command = [sys.executable, "-m", "comprope_system.cli", "add", str(campaign), named(said), "--json", str(out)]
-    ended = subprocess.run([*command, "--jobs", str(jobs)], capture_output=True, text=True, timeout=limit, check=False)
-    if ended.returncode:
-        return {"status": ended.returncode, "errors": ended.stderr.strip()[-2000:]}
-    found = json.loads(out.read_text(encoding="utf-8"))
+    status, found, errors = command(campaign, "add", [named(said)], jobs, limit)
+    if status:
+        return {"status": status, "errors": errors}
     keys = ("error_before", "error_after", "validate_error_before", "validate_error_after", "misfit_per_datum")
     return {"status": 0, **{key: found[key] for key in keys}, "intervals": intervals(found, truth)}
 

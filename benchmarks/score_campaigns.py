@@ -15,8 +15,6 @@ reason counts) and, for a wrong sign or unit, the channel named.
 import argparse
 import json
 import shutil
-import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Iterable
@@ -24,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from score_added import added
+from score_command import command
 from score_table import TAKEN_OUT, table
 
 Json = dict[str, Any]
@@ -75,7 +74,8 @@ def score(folder: Path, jobs: int, limit: float, blind: bool, add: bool) -> Json
         copy = Path(room) / "campaign"
         shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("truth.json"))
         began = time.perf_counter()
-        status, said, errors = diagnosed(copy, jobs, limit, list(truth["causes"]) if blind else [])
+        ruled_out = [word for name in truth["causes"] for word in ("--without", name)] if blind else []
+        status, said, errors = command(copy, "diagnose", ruled_out, jobs, limit)
         seconds = time.perf_counter() - began
         row = scored(folder, truth, status, said, errors) | {"seconds": seconds}
         if add and said.get("verdict") and first(truth, said):
@@ -103,19 +103,6 @@ def scored(folder: Path, truth: Json, status: int, said: Json, errors: str) -> J
         "ranking": [(one["effect"], one["probability"], one.get("misfit_per_datum")) for one in said.get("ranking", [])[:4]],
         "indistinguishable": said.get("indistinguishable", []), "remarks": said.get("remarks", []),
     }  # fmt: skip
-
-
-def diagnosed(campaign: Path, jobs: int, limit: float, without: list[str]) -> tuple[int, Json, str]:
-    """Exit status, JSON and error text of the command on a campaign's copy, `without` some effects."""
-    out = campaign.parent / "said.json"
-    command = [sys.executable, "-m", "comprope_system.cli", "diagnose", str(campaign), "--json", str(out), "--jobs", str(jobs)]
-    command += [word for name in without for word in ("--without", name)]
-    try:
-        ended = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
-    except subprocess.TimeoutExpired:
-        return -1, {}, f"not done after {limit:.0f} s"
-    said = json.loads(out.read_text(encoding="utf-8")) if out.exists() else {}
-    return ended.returncode, said, ended.stderr.strip().replace(str(campaign), "CAMPAIGN")[-2000:]
 
 
 def first(truth: Json, said: Json) -> bool:

@@ -81,9 +81,16 @@ def promising_frequencies(problem: Problem, fitted: Fitted) -> tuple[float, ...]
 
 
 def looks_from(problem: Problem, columns: Mapping[Hypothesis, Floats], none: Fitted, nominal: Fitted | None) -> list[Screened]:
-    """All looks at hypotheses with their derivatives (N, directions)."""
-    stands = [none] if nominal is None or none.misfit < CLOSE * len(problem.data) else [none, nominal]
-    return [look for at in stands for one, by in columns.items() for look in _looks_at(problem, one, by, columns, at, none)]
+    """All looks at hypotheses with their derivatives (N, directions).
+
+    What each would leave is told as a share of what `none` leaves.
+    """
+    looks: list[Screened] = []
+    for at in [none] if nominal is None or none.misfit < CLOSE * len(problem.data) else [none, nominal]:
+        plain = solve_in_scale(problem.residual(at.predictions), at.by, directions_of(at.hypothesis), at.coefficients)
+        share = none.misfit / plain.misfit
+        looks += [look for one, by in columns.items() for look in _looks_at(problem, one, by, columns, at, share)]
+    return looks
 
 
 def _effect_columns(problem: Problem, origin: Point, tried: Sequence[Hypothesis]) -> Iterator[tuple[Hypothesis, Floats]]:
@@ -102,11 +109,11 @@ def _effect_columns(problem: Problem, origin: Point, tried: Sequence[Hypothesis]
 
 
 def _looks_at(
-    problem: Problem, one: Hypothesis, by: Floats, among: Mapping[Hypothesis, Floats], at: Fitted, none: Fitted
+    problem: Problem, one: Hypothesis, by: Floats, among: Mapping[Hypothesis, Floats], at: Fitted, share: float
 ) -> Iterator[Screened]:
     """The hypothesis with one phase for all runs and, where it has a phase, with one for each, seen from the fit `at`.
 
-    What it would leave is told as a share of what `none` leaves.
+    Misfits are multiplied by `share`.
     """
     others, residual, begin = directions_of(at.hypothesis), problem.residual(at.predictions), at.coefficients
     weights = np.vstack([at.by, np.diag([1.0 / p.prior for p in others])])
@@ -114,7 +121,6 @@ def _looks_at(
     sideways = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(by)]
     visible = float(np.linalg.norm(sideways)) / max(float(np.linalg.norm(by)), 1e-300)
     same = sum(other.effect == one.effect for other in among)
-    share = none.misfit / solve_in_scale(residual, at.by, others, begin).misfit
     start = np.concatenate([begin, np.zeros(by.shape[1])])
     solution = solve_in_scale(residual, np.hstack([at.by, by]), [*others, *one.directions], start)
     yield Screened(one, solution.coefficients, share * solution.misfit, sideways, visible, same)
