@@ -461,7 +461,7 @@ def test_tension_is_elastic_and_damped() -> None:
     """T = EA (L / l - 1) + c_A dL/dt / l of a segment, from its definition."""
     do = random_state({})
     forces(do)
-    s, m, l = do.state, do.scalars["n"] + 1, STUB.rope_length / (do.scalars["n"] - 1)
+    s, m, l = do.state, do.scalars["n"] + 1, rope({}, STUB).element
     delta = np.array([np.diff(s.q[:m][: m - 1]), np.diff(s.q[m : 2 * m - 1])])
     rate = (delta * np.array([np.diff(s.v[: m - 1]), np.diff(s.v[m : 2 * m - 1])])).sum(0)
     length = np.hypot(*delta)

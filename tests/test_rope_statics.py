@@ -210,6 +210,24 @@ def test_result_does_not_depend_on_where_the_nodes_sit() -> None:
     assert np.std(sheave) < 5e-6
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [{}, {"sheave.mass": 60.0}, {"rope.bending_stiffness": 5.0}, {"contact.stiffness": 2e8}, {"sheave.radius": 0.72}],
+    ids=["preset", "light", "limp", "hard", "wide"],
+)
+def test_the_sheave_rests_where_a_fine_mesh_has_it(changes: dict[str, float]) -> None:
+    """Chords cut the rope short at its two bends; the natural length makes up for it, wherever the nodes sit on average."""
+    heights = {}
+    for element in (0.05, 0.01):
+        hung = rope(changes | {"rope.element_length": element})
+        found = []
+        for shift in np.linspace(0.0, element, 9).tolist()[:-1]:
+            hung.settle(10.0 + shift, 40.0 - shift)
+            found.append(hung.outputs()["sheave_displacement"])
+        heights[element] = float(np.mean(found))
+    assert heights[0.05] == pytest.approx(heights[0.01], abs=5e-6)
+
+
 def test_end_displacements_belong_to_the_shape_at_rest() -> None:
     hung = rope({"effects.attachment_offset.car": 0.01})
     hung.settle(0.0, 50.0, (0.02, 0.03))

@@ -61,7 +61,7 @@ MOTIONS, FORCES = ("cw_low", "car_low", "axle", "turning"), ("weight", "pull")
 # By what share of a parameter whole runs are differenced: little where the mesh moves along the sheave, so that hardly a node
 # comes to touch it that did not; much where the answer is small beside the 1e-8 m to which a time step converges.
 SHARE = 1e-5
-SHARES = {"radius": 1e-7, "pit": 1e-7, "inertia": 1e-6, "drag": 0.1, "slip": 1e-4, "sway": 1e-4, "bent": 1e-4,
+SHARES = {"radius": 1e-7, "pit": 1e-7, "inertia": 1e-6, "drag": 0.1, "slip": 1e-4, "bent": 1e-4,
           "guides": 1e-3}  # fmt: skip
 
 # What a tenth of a parameter may change without anybody seeing it: a hundredth of a fine instrument's noise.

@@ -6,7 +6,6 @@ derivative of the motion by a common factor of these amounts. The rope's own mot
 """
 
 from collections.abc import Mapping
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -19,8 +18,8 @@ from .effects.base import REGISTRY
 from .ends import PATH, PATHS
 from .model import SIDES, CompensationRope
 from .parameters import Base
-from .slots import ALPHA, DECLARED, ELEMENT, HEIGHT, PIT, RHO, R, slot
-from .standing import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
+from .slots import ALPHA, DECLARED, ELEMENT, PIT, RHO, R, slot
+from .standing import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT, element_length
 from .state import Array
 from .tangent import BEGUN, BY_HAND, CHANGED, DIFFERENCED, ENDS_STEP
 from .vector import LANES
@@ -225,7 +224,9 @@ def parameter_change(rope: CompensationRope, direction: Direction) -> Array:
         if key not in DECLARED or key.startswith(("solver.", "derived.")) or key == "rope.element_length":
             raise InputError(f"{key}: no sensitivity; a physical parameter such as rope.bending_stiffness is accepted")
         dp[slot(key)] = amount
-    dp[ELEMENT] = (2.0 * dp[PIT] + dp[HEIGHT] + pi * dp[R]) / (rope.n - 1)
+    step, elements = _limit(rope.p, dp), rope.n - 1
+    longer, shorter = (element_length(rope.p + way * step * dp, elements) for way in (1.0, -1.0))
+    dp[ELEMENT] = (longer - shorter) / (2.0 * step)
     return dp
 
 

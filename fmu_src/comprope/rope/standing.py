@@ -3,7 +3,7 @@
 The array u holds the ends' inputs: what the FMU has as inputs, in the same order.
 """
 
-from math import cos, pi, sin
+from math import cos, pi, sin, sqrt
 
 from .dynamics import forces
 from .ends import PATH, PATHS, place_ends
@@ -11,7 +11,7 @@ from .hooks import all_begin
 from .jit import kernel
 from .ledger import open_ledger
 from .newmark import copy
-from .slots import ELEMENT, HEIGHT, PIT, M, R, slot
+from .slots import EI, ELEMENT, HEIGHT, PIT, G, K, M, R, slot
 from .statics import rest
 from .words import FINE, NO_REST, OUT_OF_REACH, TOO_COARSE
 
@@ -30,11 +30,33 @@ def rope_length(p):
 
 
 @kernel
-def divide(p):
-    """Set the element length that makes whole elements of the rope's length; returns the number of nodes."""
+def cut_off(p, l):
+    """By how much chords of length l are shorter than the rope where it bends on to the sheave and off it [m].
+
+    To second order in l the energy of the polygon differs from that of the rope by -T l^2 (2 L + A) / (48 R^2), where
+    T = M g / 2, L = (EI / T)^(1/2) is the length in which the free rope straightens, and A = (4 EI / k)^(1/4) that in
+    which it sinks into the groove. Its derivative by the sheave's weight 2 T is how much too low the sheave would hang,
+    l^2 (L + A) / (96 R^2): half of this length. From L = 2^(1/2) R on the rope hangs as a loop wider than the sheave, whose
+    length chords have right.
+    """
+    straightens, sinks = sqrt(2.0 * p[EI] / (p[M] * p[G])), sqrt(sqrt(4.0 * p[EI] / p[K]))
+    if straightens > sqrt(2.0) * p[R]:
+        return 0.0
+    return l * l * (straightens + sinks) / (48.0 * p[R] * p[R])
+
+
+@kernel
+def element_length(p, elements):
+    """Natural length of each element [m], so many on the whole rope."""
     length = rope_length(p)
-    elements = max(round(length / p[LENGTH]), FEWEST)
-    p[ELEMENT] = length / elements
+    return (length - cut_off(p, length / elements)) / elements
+
+
+@kernel
+def divide(p):
+    """Set the length of whole elements that make up the rope; returns the number of nodes."""
+    elements = max(round(rope_length(p) / p[LENGTH]), FEWEST)
+    p[ELEMENT] = element_length(p, elements)
     return elements + 1.0
 
 
