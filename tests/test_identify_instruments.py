@@ -5,11 +5,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from comprope_system.identify.campaign import load_campaign
+from comprope_system.identify.campaign import Channel, load_campaign
 from comprope_system.identify.diagnose import diagnose
 from comprope_system.identify.jobs import threads
 from comprope_system.identify.results import judge
 from comprope_system.identify.samples import sample_noise
+from comprope_system.identify.scores import strain
 
 from . import virtual_lift
 
@@ -38,6 +39,17 @@ def test_a_fault_of_one_channel_is_the_instruments(tmp_path, executor, effect, v
     # Noise of 0.3 mm leaves a gain uncertain by a per cent or two, a drift by less.
     assert best.hypothesis.parameters(best.fitted.effect_coefficients)[key] == pytest.approx(value, rel=0.05)
     assert told is None or any(told in one for one in judge(found, executor).remarks)
+
+
+def test_a_load_cell_that_shows_too_little_is_no_lighter_sheave(tmp_path, executor, monkeypatch):
+    """A sheave lighter than its data sheet fits as well, with a rope lighter and limper in proportion."""
+    monkeypatch.setitem(virtual_lift.CHANNELS, "weight", Channel(column="weight", quantity="sheave_force", unit="N", noise=3.0))
+    folder = virtual_lift.campaign(tmp_path / "weak", {"effects.sensor_gain.weight": 0.87})
+    found = diagnose(load_campaign(folder), executor)
+    assert found.none.misfit < 1.2 * len(found.problem.data)
+    assert strain(found.none.coefficients) > strain(found.ranking[0].fitted.coefficients) + 7.0
+    assert (found.verdict, found.kind) == ("sensor_gain", "instrument")
+    assert found.ranking[0].fitted.point.effects["effects.sensor_gain.weight"] == pytest.approx(0.87, rel=0.01)
 
 
 def test_a_stated_noise_that_the_rest_contradicts_is_not_believed():

@@ -18,13 +18,16 @@ from .hypotheses import NUISANCES, Hypothesis
 from .in_step import refitted
 from .point import Point, Predictions, gathered, submit
 from .problem import Problem, pose
-from .rivals import Say, Trial, challenged, least_misfit, rivals, score, second_look
+from .rivals import Say, Trial, challenged, least_misfit, rivals, second_look
+from .scores import score, strain
 from .screen import Screened, screen
 
 Floats = NDArray[np.float64]
 
 UNEXPLAINED = 0.04  # of the misfit that is too much: what "none of the known effects" stands for
 UNKNOWN = 10.0  # its price
+COMMON = 1.06  # misfit per datum that a model with the right effect may leave
+USUAL = 5.0  # strain of a plant whose data sheets are as good as usual
 MUCH = 2.0  # misfit per datum of the best fit above which effects are looked at from other masses as well
 ALIKE = 0.7  # cosine above which two effects look the same in these data
 
@@ -87,9 +90,9 @@ def diagnose(
 
 def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fitted, found: list[Trial]) -> Diagnosis:
     count = len(problem.data)
-    excess = max(none.misfit / count - 1.0, 0.0)
-    scores = {"adequate": score(none.misfit, count), "unknown": score(count * (1.0 + UNEXPLAINED * excess), count, UNKNOWN)}
+    scores = {"adequate": score(none.misfit, count, strain(none.coefficients))}
     scores |= {one.hypothesis.effect: one.score(count) for one in found}
+    scores["unknown"] = _unknown(none, found, scores, count)
     top = max(scores.values())
     weights = {name: float(np.exp(value - top)) for name, value in scores.items()}
     probabilities = {name: weight / sum(weights.values()) for name, weight in weights.items()}
@@ -98,6 +101,15 @@ def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fi
     )
     verdict, kind = _verdict(probabilities, ranking)
     return Diagnosis(campaign, problem, nominal, none, ranking, probabilities, _alike(found), verdict, kind)
+
+
+def _unknown(none: Fitted, found: list[Trial], scores: dict[str, float], count: int) -> float:
+    """Score of an effect that nobody knows, which would leave about as much as what is known does."""
+    known = max(found, key=lambda one: scores[one.hypothesis.effect]).fitted if found else none
+    explains = known.hypothesis is not None and scores[known.hypothesis.effect] > scores["adequate"]
+    left, best = (min(known.misfit / count, COMMON), known) if explains else (1.0, none)
+    excess = max(none.misfit / count - 1.0, 0.0)
+    return score(count * max(left, 1.0 + UNEXPLAINED * excess), count, UNKNOWN + min(strain(best.coefficients), USUAL))
 
 
 def _candidate(one: Trial, scores: dict[str, float], probabilities: dict[str, float], count: int) -> Candidate:

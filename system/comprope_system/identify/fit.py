@@ -14,6 +14,7 @@ from .hypotheses import NUISANCES, Hypothesis
 from .linear import directions_of, linearised, point_of
 from .point import Point, Predictions
 from .problem import Problem, Solution, scale_of, solve
+from .scores import strain, strained
 
 Floats = NDArray[np.float64]
 ENOUGH = 4e-3  # of the number of data: a fall of the cost below this ends the iteration
@@ -45,6 +46,11 @@ class Fitted:
     def cost(self, scale: float = 1.0) -> float:
         """Misfit and priors in its scale."""
         return self.misfit + scale * self.penalty
+
+    @property
+    def strained(self) -> float:
+        """The misfit, raised for a plant off its data sheets."""
+        return strained(self.misfit, strain(self.coefficients))
 
     @property
     def effect_coefficients(self) -> list[float]:

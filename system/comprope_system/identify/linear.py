@@ -17,7 +17,7 @@ from .hypotheses import CLOCK, NUISANCES, Direction, Hypothesis
 from .point import Point, Predictions
 from .problem import Problem
 from .replay import referred
-from .sensitivities import replay_with_sensitivities, sticking
+from .sensitivities import replay_with_sensitivities
 
 Floats = NDArray[np.float64]
 Tangents = tuple[dict[str, Floats], dict[int, dict[str, Floats]]]
@@ -95,7 +95,7 @@ def tangents(
         if amounts := {key: amount for key, amount in change.items() if amount}:
             directions[str(k)] = amounts
     moved_run = replace(run, changes=changes)
-    shown, by = replay_with_sensitivities(model, moved_run, channels, directions, exact=sticking(values))
+    shown, by = replay_with_sensitivities(model, moved_run, channels, directions)
     return shown.values, {int(k): one for k, one in by.items()}
 
 

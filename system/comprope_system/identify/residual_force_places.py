@@ -14,14 +14,12 @@ import numpy as np
 from scipy.interpolate import BSpline
 
 from comprope.rope.effects import RopeModel, model_type, own
-from comprope.rope.model import values_of
-from comprope.rope.modelfile import with_changes
 
 from .campaign import Channel, Run
 from .point import Point, moved
 from .problem import Problem
 from .replay import STEP, Floats, coarseness
-from .sensitivities import replay_with_sensitivities, sticking
+from .sensitivities import replay_with_sensitivities
 
 PROBE = Path(__file__).with_name("residual_force_probe.py")
 KEY = "effects.residual_force."
@@ -137,6 +135,5 @@ def answers(
         str(k): {KEY + "height": place.height, KEY + "reach": place.reach, KEY + "time": time, KEY + "width": width}
         for k, (place, time, width) in enumerate(pulses)
     }
-    here = values_of(with_changes(model, run.changes, run.file))
-    by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at, exact=sticking(here))[1]
+    by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at)[1]
     return [by[name] for name in directions]

@@ -1,12 +1,8 @@
 """Every effect as a rival for what the data show: fitted on the full model where that is worth its time, else by its linear look.
-
-Scores compare misfits as ratios, as if LOOKS independent looks had been taken: the discrepancy of a model is one and the
-same in thousands of samples, which a plain likelihood would count as evidence each.
 """
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from math import log
 from typing import NamedTuple
 
 import numpy as np
@@ -19,11 +15,11 @@ from .in_step import LEFT, brought_into_step
 from .point import Point
 from .present import shapes_of
 from .problem import Problem
-from .screen import LOOKS, Screened, price, screen
+from .scores import price, score, strain
+from .screen import Screened, screen
 from .starts import best_start
 
 Say = Callable[[str], None]
-ADEQUATE = 0.85  # misfit per datum below which there is nothing to explain
 REFINED = 4  # hypotheses that are refined on the full model, if no other one leads
 RIVAL = 1.2  # times the best fit's misfit above which a fit is not worth its time
 PROMISING = 0.1  # of what the best linear look explains: the least that is worth a fit
@@ -51,12 +47,7 @@ class Trial(NamedTuple):
 
     def score(self, count: int) -> float:
         """Score of the fit to `count` data."""
-        return score(self.fitted.misfit, count, price(self.hypothesis, self.seen.alternatives))
-
-
-def score(misfit: float, count: int, price: float = 0.0) -> float:
-    """Score of a hypothesis: log likelihood of LOOKS independent looks whose scale is free, less its price."""
-    return -0.5 * LOOKS * log(max(misfit / count, ADEQUATE)) - price
+        return score(self.fitted.misfit, count, price(self.hypothesis, self.seen.alternatives) + strain(self.fitted.coefficients))
 
 
 def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitted, say: Say) -> list[Trial]:
@@ -65,13 +56,15 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
     A linear look alone does not win: whichever leads is fitted as well, until what leads is a fit.
     """
     worth = NOTICED * len(problem.data)
-    least = max(PROMISING * (none.misfit - screened[0].misfit), worth)
     found = [_by_look(one, none) for one in screened]
+    least = max(PROMISING * (none.strained - found[0].fitted.strained), worth)
     for k, one in enumerate(screened[:REFINED]):
-        if none.misfit - one.misfit > least and _may_win(found[k], none, found):
+        if none.strained - found[k].fitted.strained > least and _may_win(found[k], none, found):
             found[k] = _on_full_model(problem, origin, one, none, found, say)
-    while not found[leader := _leader(found, len(problem.data))].refined and found[leader].fitted.misfit < none.misfit - worth:
+    leader = _leader(found, len(problem.data))
+    while not found[leader].refined and found[leader].fitted.strained < none.strained - worth:
         found[leader] = _on_full_model(problem, origin, screened[leader], none, found, say)
+        leader = _leader(found, len(problem.data))
     if found[leader].refined:
         found[leader] = _finished(problem, origin, found[leader])
     return found
@@ -103,8 +96,8 @@ def least_misfit(found: Iterable[Trial], none: Fitted) -> float:
 
 def _may_win(one: Trial, none: Fitted, found: Sequence[Trial]) -> bool:
     """Whether an effect that explains half as much again as its linear look has it would come near the best fit so far."""
-    at_best = one.fitted.misfit - 0.5 * (none.misfit - one.fitted.misfit)
-    return at_best < NEAR * least_misfit(found, none)
+    at_best = one.fitted.strained - 0.5 * (none.strained - one.fitted.strained)
+    return at_best < NEAR * min((trial.fitted.strained for trial in found if trial.refined), default=none.strained)
 
 
 def _leader(found: Sequence[Trial], count: int) -> int:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import exp, log
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +13,11 @@ from .point import Point
 from .problem import Problem, solve_in_scale
 from .replay import coarseness
 from .scan import scanned
+from .scores import price, strain, strained
 from .spectrum import frequencies
 from .turning import solve_turned
 
 Floats = NDArray[np.float64]
-LOOKS = 200.0  # independent looks that a campaign is worth
-PRICE = 2.5  # about half the logarithm of LOOKS: of the score, for each parameter of an effect
-TURN = 1.0  # the same, for each run's own phase
 CLOSE = 5.0  # misfit per datum of a fit below which looks are best taken from there
 
 
@@ -40,14 +37,8 @@ class Screened:
 
     @property
     def strained(self) -> float:
-        """The misfit, raised as the price lowers the score."""
-        return self.misfit * exp(2.0 * price(self.hypothesis, self.alternatives) / LOOKS)
-
-
-def price(hypothesis: Hypothesis, alternatives: int) -> float:
-    """What the score of a hypothesis is lowered by for all that was free to choose."""
-    turns = sum(len(part.turned) for part in hypothesis.parts or (hypothesis,))
-    return PRICE * (1 + len(hypothesis.directions) - turns) + TURN * turns + log(alternatives)
+        """The misfit, raised as the price and the plant's strain lower the score."""
+        return strained(self.misfit, price(self.hypothesis, self.alternatives) + strain(self.start))
 
 
 def screen(

@@ -7,6 +7,7 @@ from scipy.interpolate import CubicSpline
 
 from comprope.errors import SimulationError
 from comprope.rope.effects import REGISTRY, RopeModel
+from comprope.rope.model import values_of
 from comprope.rope.modelfile import with_changes
 from comprope.rope.sensitivity import Direction, SensitiveRope
 
@@ -14,6 +15,7 @@ from .campaign import Channel, Run
 from .replay import GRID, STEP, Floats, Replay, _paths, instrument, referred
 
 FORCES = ("force", "tension")
+GROWN = 1e100  # more than a derivative ever is, and its square still a number
 
 
 def replay_with_sensitivities(
@@ -24,20 +26,21 @@ def replay_with_sensitivities(
     step: float = STEP,
     at: Mapping[str, Direction] | None = None,
     *,
-    exact: bool = False,
+    exact: bool | None = None,
 ) -> tuple[Replay, dict[str, dict[str, Floats]]]:
     """What `replay` gives, and for each direction the derivative of each channel at the run's sample times.
 
     A direction maps keys of the model to amounts, `{"rope.bending_stiffness": 1.0}`; its derivative is in the channel's SI
     unit per one times these amounts, which add to what the run itself has changed. `at` sets values that do nothing before the
-    direction does, and `exact` spends more on accuracy (see `SensitiveRope`). Derivatives count from rest where the channel
-    does, and are NaN where the rope is not in view. Raises `SimulationError` where the run or a derivative fails.
+    direction does, and `exact` spends more on accuracy (see `SensitiveRope`), by default where effects need it. Derivatives
+    count from rest where the channel does, and are NaN where the rope is not in view. Raises `SimulationError` where the run or
+    a derivative fails.
     """
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
-    rope = SensitiveRope(changed, directions, at, exact=exact)
+    rope = SensitiveRope(changed, directions, at, exact=_sticking(values_of(changed)) if exact is None else exact)
     grid = run.time[0] + GRID * np.arange(int(np.ceil((run.time[-1] - run.time[0]) / GRID)) + 2)
     seen, hidden = _drive(rope, run, grid, channels)
-    if not all(np.isfinite(one).all() for one in seen.values()):
+    if not all(np.abs(one).max() < GROWN for one in seen.values()):
         raise SimulationError(f"{run.file}: derivatives along the run grew beyond all numbers")
     sampled = {column: CubicSpline(grid, seen[column])(run.time) for column in channels}
     for column, values in sampled.items():
@@ -51,7 +54,7 @@ def replay_with_sensitivities(
     }
 
 
-def sticking(values: Mapping[str, float]) -> bool:
+def _sticking(values: Mapping[str, float]) -> bool:
     """Whether a model of these values has effects with a history, which need `exact` derivatives.
 
     Wires that stick and slip change the rope's stiffness within a step: with the older factor derivatives may grow without end.
