@@ -8,7 +8,7 @@ import pytest
 from comprope_system.identify.campaign import Channel, load_campaign
 from comprope_system.identify.diagnose import diagnose
 from comprope_system.identify.jobs import threads
-from comprope_system.identify.results import judge
+from comprope_system.identify.results import far_off, judge
 from comprope_system.identify.samples import sample_noise
 from comprope_system.identify.scores import strain
 
@@ -45,11 +45,16 @@ def test_a_load_cell_that_shows_too_little_is_no_lighter_sheave(tmp_path, execut
     """A sheave lighter than its data sheet fits as well, with a rope lighter and limper in proportion."""
     monkeypatch.setitem(virtual_lift.CHANNELS, "weight", Channel(column="weight", quantity="sheave_force", unit="N", noise=3.0))
     folder = virtual_lift.campaign(tmp_path / "weak", {"effects.sensor_gain.weight": 0.87})
-    found = diagnose(load_campaign(folder), executor)
+    campaign = load_campaign(folder)
+    found = diagnose(campaign, executor)
     assert found.none.misfit < 1.2 * len(found.problem.data)
     assert strain(found.none.coefficients) > strain(found.ranking[0].fitted.coefficients) + 7.0
     assert (found.verdict, found.kind) == ("sensor_gain", "instrument")
     assert found.ranking[0].fitted.point.effects["effects.sensor_gain.weight"] == pytest.approx(0.87, rel=0.01)
+    unexplained = diagnose(campaign, executor, without=("sensor_gain",))
+    assert unexplained.kind == "unknown_effect"
+    assert far_off(unexplained)[0][:2] == ("sheave.mass", pytest.approx(-0.13, abs=0.01))
+    assert far_off(found) == []
 
 
 def test_a_stated_noise_that_the_rest_contradicts_is_not_believed():

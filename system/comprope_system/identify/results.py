@@ -2,17 +2,21 @@
 
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from math import expm1
 from typing import Any
 
 from .compare import Comparison, compare
 from .diagnose import Candidate, Diagnosis
 from .errors_of import nrmse
+from .fit import Fitted
 from .hypotheses import NUISANCES, Hypothesis
 from .plain import plain
 from .point import Point
 from .present import name_of, short_names
 from .remarks import remarks
 from .values import Value, plant_results, set_by_runs, widening
+
+FAR = 4.0  # prior deviations
 
 
 @dataclass(frozen=True)
@@ -122,13 +126,25 @@ def nrmse_of_fit(judged: Judged, k: int) -> float:
 
 def plant(diagnosis: Diagnosis) -> dict[str, Value]:
     """The plant as refitted beside the verdict's effect, or alone."""
-    fitted = diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.none
+    fitted = _best(diagnosis)
     return plant_results(diagnosis.campaign, fitted, widening(fitted, len(diagnosis.problem.data)))
+
+
+def far_off(diagnosis: Diagnosis) -> list[tuple[str, float, float]]:
+    """Plant parameters that no data sheet is so wrong about: key, relative change, and in how many prior deviations."""
+    fitted = _best(diagnosis)
+    moved = [(one, float(c), float(c) / one.prior) for one, c in zip(NUISANCES, fitted.coefficients, strict=False)]
+    return [(one.name, expm1(c), off) for one, c, off in moved if one.relative and abs(off) > FAR]
+
+
+def _best(diagnosis: Diagnosis) -> Fitted:
+    """The fit of the verdict's effect, or of the plant alone."""
+    return diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.none
 
 
 def biases(diagnosis: Diagnosis) -> list[tuple[str, Value, float]]:
     """Plant parameters by key, with value and how many prior deviations they were moved, the most moved first."""
-    fitted = diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.none
+    fitted = _best(diagnosis)
     values = plant(diagnosis)
     moved = [(one.name, values[one.name], float(fitted.coefficients[k]) / one.prior) for k, one in enumerate(NUISANCES)]
     replaced = set_by_runs(diagnosis.campaign)

@@ -13,7 +13,7 @@ from .diagnose import Diagnosis
 from .journey import Journey
 from .phases import PHASES
 from .residual_force import ResidualForce
-from .results import Judged, biases, full_name, misfit, ranking
+from .results import Judged, biases, far_off, full_name, misfit, ranking
 from .values import Value, unit_of
 
 SHOWN = 6  # effects in short tables
@@ -88,14 +88,16 @@ def verdict(judged: Judged) -> list[str]:
     found = judged.diagnosis
     surely = found.probabilities
     ruled_out = [f"Ruled out beforehand: {', '.join(sorted(out))}."] if (out := found.problem.ruled_out) else []
+    bent = _bent(found)
     if found.verdict:
-        return [_missing(judged), *_twins(found), *ruled_out]
+        return [_missing(judged), *_twins(found), *bent, *ruled_out]
     if found.kind == "adequate":
         told = "Nothing is missing: with its plant parameters refitted the model is as near as noise allows"
-        return [f"{told} (probability {chance(surely['adequate'])}).", *ruled_out]
+        return [f"{told} (probability {chance(surely['adequate'])}).", *bent, *ruled_out]
     return [
         *ruled_out,
         f"Something is missing, and none of the known effects explains it (probability {chance(surely['unknown'])}).",
+        *bent,
         "See what the rest is locked to: that is the clue.",
     ]
 
@@ -114,6 +116,12 @@ def _missing(judged: Judged) -> str:
         f"{percent(top['validate_error_before'])} to {percent(top['validate_error_after'])} on runs held out; noise alone would "
         f"leave {percent(judged.before.floor('fit'))} and {percent(judged.before.floor('validate'))}.{rest}"
     )
+
+
+def _bent(found: Diagnosis) -> list[str]:
+    """What a fit asks of the plant that no data sheet allows."""
+    told = [f"{key} by {change:+.0%}, {abs(off):.0f} times what it usually errs by" for key, change, off in far_off(found)]
+    return [f"For this the plant must be far off what is stated: {'; '.join(told)}."] if told else []
 
 
 def _twins(found: Diagnosis) -> list[str]:

@@ -16,6 +16,7 @@ from .campaign import Campaign
 from .fit import Fitted
 from .hypotheses import CLOCK, NUISANCES, Hypothesis
 from .problem import scale_of
+from .scores import LOOKS
 
 CONFIDENCE = 1.96  # standard deviations of a 95 % interval
 
@@ -45,8 +46,12 @@ class Value:
 
 
 def widening(fitted: Fitted, count: int) -> float:
-    """By how much standard deviations are widened: a model that misses the data knows its parameters less well."""
-    return float(np.sqrt(scale_of(fitted.misfit, count)))
+    """By how much standard deviations are widened: a model that misses the data knows its parameters less well.
+
+    So does one that misses them by a discrepancy which is one and the same in thousands of samples: they count as LOOKS, as in
+    a score.
+    """
+    return float(np.sqrt(scale_of(fitted.misfit, count) * max(1.0, count / LOOKS)))
 
 
 def effect_results(fitted: Fitted, scale: float = 1.0) -> dict[str, Value]:
