@@ -6,8 +6,8 @@ predictor as the step's own, dq = dq0 + h (dv0 + h/2 da0), dv = dv0 + h da0, one
     J r = (1 - alpha) D + dc - dM a,        dc = alpha df0 - M da0,
     da = da0 + r,  dv += gamma h r,  dq += beta h^2 r,
 
-where J is the tangent of the step and D the directional derivative of the forces (see `slope`), which is
-exact. J may be that of the iterate which was factored, with the contact's share renewed: that errs in the
+where J is the tangent of the step and D the directional derivative of the forces (see `slope`, `groove` and
+`acting`), which is exact. J may be that of the iterate which was factored, with the contact's share renewed: that errs in the
 correction alone; or it is renewed as a whole (`exact`). The next dc follows from the balance of the step.
 What the ends do with dp is read off their paths by differences.
 
@@ -16,7 +16,7 @@ Directions go in blocks of LANES: number (node i, component c) of direction k in
 the same way, and `at` and `toward`, direction after direction, where the parameters begin and how they change.
 """
 
-from .acting import add_lane, begun_effects, forces_on, set_lane
+from .acting import add_lane, effect_forces, effects_on
 from .contact import clear
 from .dynamics import forces, node_mass
 from .ends import PATH, PATHS, place_ends
@@ -27,7 +27,7 @@ from .newmark import renew
 from .slope import ahead, contact_alone, elongations, mass_slope, rope_slope
 from .slots import ALPHA, ELEMENT, J, M, R
 from .vector import LANES, put, take
-from .work import FIRST, FORCE_X, LAST
+from .work import FIRST, LAST
 from .zone import factor_zone, fill
 
 MOVE = 1e-7  # m, the largest move by which effects are differenced
@@ -37,11 +37,9 @@ COARSE = 32  # nodes between those that are asked for the largest move
 GROUP = 3  # blocks that are carried on at once: enough to fill each other's waiting, few enough to stay at hand
 ENDS_STEP = 1e-2  # of `limit`: the difference by which the ends' paths are differentiated
 
-# How forces are differentiated along a direction: by hand but for the contact; with the forces of effects that begin
-# with it; by differences, as the model has effects; by differences in which the history of effects changes too.
+# What effects do along a direction, beside rope and contact: nothing; begin with it; change, as the model has some;
+# change, and their history with them.
 BY_HAND, BEGUN, DIFFERENCED, CHANGED = range(4)
-# Which directions keep their history in a pass: none, those whose effects have their own, those whose history changes.
-NONE, OWN, ALL = range(3)
 
 
 @kernel
@@ -113,34 +111,42 @@ def renew_all(n, t, h, p, q, v, h0, f1, touch, w, A, L, B, Z, r, hb, power):
 def arrive(
     n, t, h, exact, directions, p, q0, v0, hp, w, e0, f, f1, way, touch, A, L, B, Z, moves, hb, power,
 ):  # fmt: skip
-    """What all directions start from in the state reached: forces f1 if any is differenced, elongations e0, J."""
+    """What all directions start from in the state reached: forces f1 of effects if any change, elongations e0, J."""
+    acting = changing(directions, way)
     if exact:
         renew_all(n, t, h, p, q0, v0, hp, f1, touch, w, A, L, B, Z, moves, hb, power)
     else:
-        for k in range(directions):
-            if way[k] >= DIFFERENCED:
-                forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
-                break
+        if acting:
+            forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
         renew_zone(n, h, p, q0, v0, f, touch, A, L, B, Z)
     elongations(n, p, v0, w, e0)
+    if acting:
+        effect_forces(n, t, p, q0, v0, w, w, f1, hp, hb, power)
 
 
 @kernel
-def effect_slope(
-    n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, h0, w, e0, f1, at, toward, limit, way, own, dq, dv, da,
-    dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D,
+def changing(directions, way):
+    """Whether effects of the model change along some direction."""
+    found = False
+    for k in range(directions):
+        found = found or way[k] >= DIFFERENCED
+    return found
+
+
+@kernel
+def effects_along(
+    n, t, k, h, state_size, parameters, p, q0, v0, h0, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1, moves, q, v,
+    hi, hd, w1, f, power,
 ):  # fmt: skip
-    """Complete D for a direction along which effects act; returns the step of differences, at which touch is left."""
+    """Set f to the forces of effects a step along direction k, hd to their history there; returns that step."""
     b = entry(n + 1, k)
     e = gauge(n, b, p[R], limit[k], dq, dv)
     shift(parameters, k, e, at, toward, p1)
     recall(state_size, k, e, own, h0, dh, hi)
     if way[k] == BEGUN:
-        begun_effects(n, t, p1, q0, v0, w, f, hi, hd, power)
-        add_lane(n, new / e, f, b, D)
+        effect_forces(n, t, p1, q0, v0, w, w, f, hi, hd, power)
     else:
-        forces_on(n, t, p1, p[ELEMENT], w, e0, q0, v0, moves, q, v, w1, e, b, h, dq, dv, da, f, touch, hi, hd, power, Z)
-        set_lane(n, new / e, keep, f, f1, a0, p, toward, parameters * k, dc, b, D)
+        effects_on(n, t, p1, p[ELEMENT], w, e0, q0, v0, moves, q, v, w1, e, b, h, dq, dv, da, f, hi, hd, power)
     return e
 
 
@@ -230,26 +236,40 @@ def solve_blocks(n, h, parameters, begin, end, p, dp, a0, L, B, D, dq, dv, da, d
 
 @kernel
 def slopes(
-    n, t, h, new, keep, kept, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1, at, toward, dp,
-    limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D, lift,
+    n, t, h, new, keep, recorded, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1, at, toward, dp,
+    limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, D, lift,
 ):  # fmt: skip
     """Set D to new D + keep (dc - dM a) for the directions of blocks `begin` .. `end` - 1.
 
-    On the right D is the derivative of the forces h ahead of (dq, dv, da). Keeps the histories that `kept` asks for, and
-    in `lift` the derivatives of the vertical force on the sheave, which touch has.
+    On the right D is the derivative of the forces h ahead of (dq, dv, da). With `recorded`, histories of effects that begin
+    with their direction are kept. `lift` are the derivatives of the vertical force on the sheave.
     """
-    force = touch[FORCE_X]
     for block in range(begin, end):
         block_slope(n, h, new, keep, directions, block, parameters, p, q0, v0, a0, w, e0, at, toward, dp, limit, dq, dv, da,
                     dc, p1, centre, touch, D, lift)  # fmt: skip
     for k in range(begin * LANES, min(end * LANES, directions)):
         if way[k] != BY_HAND:
-            e = effect_slope(n, t, k, h, new, keep, state_size, parameters, p, q0, v0, a0, hp, w, e0, f1, at, toward, limit,
-                             way, own, dq, dv, da, dc, dh, p1, moves, q, v, hi, hd, w1, f, touch, power, Z, D)  # fmt: skip
+            b = entry(n + 1, k)
+            e = effects_along(n, t, k, h, state_size, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv, da,
+                              dh, p1, moves, q, v, hi, hd, w1, f, power)  # fmt: skip
+            add_lane(n, new / e, f, b, D)
             if way[k] >= DIFFERENCED:
-                lift[k] = (touch[FORCE_X] - force) / e
-            if kept == ALL or (kept == OWN and own[k] != 0.0):
+                add_lane(n, -new / e, f1, b, D)
+            if recorded and own[k] != 0.0:
                 keep_history(state_size, k, e, own, hb, hd, dh)
+
+
+@kernel
+def histories(
+    n, t, state_size, directions, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1, moves, q, v,
+    hi, hb, hd, w1, f, power,
+):  # fmt: skip
+    """Keep the histories that changed over a step, as the state it reached makes them."""
+    for k in range(directions):
+        if way[k] == CHANGED:
+            e = effects_along(n, t, k, 0.0, state_size, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv,
+                              da, dh, p1, moves, q, v, hi, hd, w1, f, power)  # fmt: skip
+            keep_history(state_size, k, e, own, hb, hd, dh)
 
 
 @kernel
@@ -269,16 +289,12 @@ def step_directions(
           dq, dv, da)  # fmt: skip
     for begin in range(0, blocks, GROUP):
         end = min(begin + GROUP, blocks)
-        slopes(n, t, h, 1.0 - p[ALPHA], 1.0, OWN, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1,
-               at, toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, Z,
-               D, lift)  # fmt: skip
+        slopes(n, t, h, 1.0 - p[ALPHA], 1.0, True, state_size, directions, begin, end, parameters, p, q0, v0, a0, hp, w, e0, f1,
+               at, toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, D,
+               lift)  # fmt: skip
         solve_blocks(n, h, parameters, begin, end, p, dp, a0, L, B, D, dq, dv, da, dc)
-    for k in range(directions):
-        if way[k] == CHANGED:
-            slopes(n, t, 0.0, 1.0, 0.0, ALL, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, hp, w, e0, f1, at,
-                   toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, Z,
-                   D, lift)  # fmt: skip
-            return
+    histories(n, t, state_size, directions, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1,
+              moves, q, v, hi, hb, hd, w1, f, power)  # fmt: skip
 
 
 @kernel
@@ -289,6 +305,7 @@ def differentiate(
     """Set D to the derivative of the forces along all directions, and lift to that of the vertical force on the sheave."""
     forces(n, t, p, q0, v0, w, f1, touch, h0, hb, power, Z, 0.0, 0.0, False)
     elongations(n, p, v0, w, e0)
-    slopes(n, t, 0.0, 1.0, 0.0, NONE, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, at,
-           toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, Z, D,
+    effect_forces(n, t, p, q0, v0, w, w, f1, h0, hb, power)
+    slopes(n, t, 0.0, 1.0, 0.0, False, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, at,
+           toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, D,
            lift)  # fmt: skip
