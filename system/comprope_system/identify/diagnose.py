@@ -19,7 +19,7 @@ from .in_step import refitted
 from .point import Point, Predictions, gathered, submit
 from .problem import Problem, pose
 from .rivals import Say, Trial, challenged, least_misfit, rivals, second_look
-from .scores import score, strain
+from .scores import score
 from .screen import Screened, screen
 
 Floats = NDArray[np.float64]
@@ -90,7 +90,7 @@ def diagnose(
 
 def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fitted, found: list[Trial]) -> Diagnosis:
     count = len(problem.data)
-    scores = {"adequate": score(none.misfit, count, strain(none.coefficients))}
+    scores = {"adequate": score(none.misfit, count, none.strain)}
     scores |= {one.hypothesis.effect: one.score(count) for one in found}
     scores["unknown"] = _unknown(none, found, scores, count)
     top = max(scores.values())
@@ -109,7 +109,7 @@ def _unknown(none: Fitted, found: list[Trial], scores: dict[str, float], count: 
     explains = known.hypothesis is not None and scores[known.hypothesis.effect] > scores["adequate"]
     left, best = (min(known.misfit / count, COMMON), known) if explains else (1.0, none)
     excess = max(none.misfit / count - 1.0, 0.0)
-    return score(count * max(left, 1.0 + UNEXPLAINED * excess), count, UNKNOWN + min(strain(best.coefficients), USUAL))
+    return score(count * max(left, 1.0 + UNEXPLAINED * excess), count, UNKNOWN + min(best.strain, USUAL))
 
 
 def _candidate(one: Trial, scores: dict[str, float], probabilities: dict[str, float], count: int) -> Candidate:

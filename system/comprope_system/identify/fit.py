@@ -31,7 +31,8 @@ class Fitted:
 
     `misfit` is the sum of squares in units of noise and discrepancy, `penalty` that of coefficients over priors;
     `coefficients` are plant first, then the effect; `covariance` theirs; `by` (N, coefficients) are the
-    derivatives there.
+    derivatives there. `strain` is what the plant's coefficients cost, there or where derivatives lead from there: a fit
+    ends before priors have pulled all they could.
     """
 
     hypothesis: Hypothesis | None
@@ -42,6 +43,7 @@ class Fitted:
     by: Floats
     misfit: float
     penalty: float
+    strain: float
 
     def cost(self, scale: float = 1.0) -> float:
         """Misfit and priors in its scale."""
@@ -50,7 +52,7 @@ class Fitted:
     @property
     def strained(self) -> float:
         """The misfit, raised for a plant off its data sheets."""
-        return strained(self.misfit, strain(self.coefficients))
+        return strained(self.misfit, self.strain)
 
     @property
     def effect_coefficients(self) -> list[float]:
@@ -76,7 +78,7 @@ def refine(
         # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
         scale = scale_of(best.misfit, count)
         solution = solve(problem.residual(best.predictions), best.by, directions, best.coefficients, scale)
-        best = replace(best, covariance=solution.covariance)
+        best = _seen_from(best, solution)
         if solution.misfit > rival * (1.0 if done >= TRUSTED else HOPELESS):
             break
         enough, promised, before = ENOUGH * scale * count, best.cost(scale) - solution.cost, best.cost(scale)
@@ -91,6 +93,12 @@ def refine(
     return best
 
 
+def _seen_from(fitted: Fitted, solution: Solution) -> Fitted:
+    """The fit with what the solution by its derivatives tells."""
+    least = min(strain(fitted.coefficients), strain(solution.coefficients))
+    return replace(fitted, covariance=solution.covariance, strain=least)
+
+
 def evaluate(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> Fitted:
     """Misfit and derivatives at the coefficients x (k,). Raises `SimulationError` where the model cannot be simulated there."""
     return _fitted(problem, hypothesis, x, base, *linearised(problem, hypothesis, x, base))
@@ -102,7 +110,7 @@ def _fitted(
     residual = problem.residual(predictions)
     penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, directions_of(hypothesis), strict=True)))
     point, none = point_of(hypothesis, list(x), base), np.zeros((len(x), len(x)))
-    return Fitted(hypothesis, point, predictions, x, none, by, float(residual @ residual), penalty)
+    return Fitted(hypothesis, point, predictions, x, none, by, float(residual @ residual), penalty, strain(x))
 
 
 def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, scale: float) -> Fitted:

@@ -10,7 +10,7 @@ from .fit import Fitted, refine
 from .hypotheses import NUISANCES
 from .point import Point
 from .present import grouped, joined
-from .scores import PRICE, score, strain
+from .scores import PRICE, score
 
 Floats = NDArray[np.float64]
 
@@ -53,4 +53,4 @@ def _score(ground: Ground, fitted: Fitted) -> float:
     """The diagnosis' own score: what the effects explain, less what they cost."""
     groups = grouped(fitted.hypothesis, fitted.effect_coefficients)
     price = sum(PRICE * (1 + sum(len(part.directions) for part, _ in pairs)) for pairs in groups.values())
-    return score(fitted.misfit, len(ground.problem.data), price + strain(fitted.coefficients))
+    return score(fitted.misfit, len(ground.problem.data), price + fitted.strain)

@@ -15,7 +15,7 @@ from .in_step import LEFT, brought_into_step
 from .point import Point
 from .present import shapes_of
 from .problem import Problem
-from .scores import price, score, strain
+from .scores import price, score
 from .screen import Screened, screen
 from .starts import best_start
 
@@ -47,7 +47,7 @@ class Trial(NamedTuple):
 
     def score(self, count: int) -> float:
         """Score of the fit to `count` data."""
-        return score(self.fitted.misfit, count, price(self.hypothesis, self.seen.alternatives) + strain(self.fitted.coefficients))
+        return score(self.fitted.misfit, count, price(self.hypothesis, self.seen.alternatives) + self.fitted.strain)
 
 
 def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitted, say: Say) -> list[Trial]:
@@ -106,7 +106,8 @@ def _leader(found: Sequence[Trial], count: int) -> int:
 
 def _by_look(one: Screened, none: Fitted) -> Trial:
     """The fit that a linear look promises."""
-    return Trial(one, replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=one.misfit), False)
+    fitted = replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=one.misfit, strain=one.strain)
+    return Trial(one, fitted, False)
 
 
 def _on_full_model(

@@ -38,7 +38,12 @@ class Screened:
     @property
     def strained(self) -> float:
         """The misfit, raised as the price and the plant's strain lower the score."""
-        return strained(self.misfit, price(self.hypothesis, self.alternatives) + strain(self.start))
+        return strained(self.misfit, price(self.hypothesis, self.alternatives) + self.strain)
+
+    @property
+    def strain(self) -> float:
+        """What the plant costs where its refinement begins."""
+        return strain(self.start)
 
 
 def screen(
