@@ -122,7 +122,7 @@ CAUSES: dict[str, Cause] = {
     ),
     "sticky_guide": tower(
         "outside", {"guide_coulomb": Draw(0.3, 30.0), "breakaway": Draw(0.6, 60.0)}, {"stribeck_velocity": Draw(1e-3, 4e-3)},
-        near=("guide_friction",),
+        near=("guide_friction", "sheave_damper"),
     ),
     "jammed_seal": tower("outside", {"seal_stiffness": Draw(5e-3, 0.3)}),
     "sloped_guide": tower("outside", {"guide_slope": Draw(0.1, 1.5, signed=True)}),
