@@ -37,12 +37,18 @@ def text_of(path: str | Path) -> str:
         raise InputError(f"{path}: not UTF-8 text (byte {error.start + 1}); save the file as UTF-8") from None
 
 
-def require_writable(path: str | Path) -> None:
+PAGES, PICTURES = (".html", ".htm"), (".png", ".pdf", ".svg")
+
+
+def require_writable(path: str | Path, endings: tuple[str, ...] = ()) -> None:
     """Make the folder of a file to come; raises `InputError` if the file could not be written there.
 
-    Asked before a long computation, so that it is not lost for a mistyped path.
+    `endings` are those that its name may have, if not any. Asked before a long computation, so that it is not lost for a
+    mistyped path.
     """
     target = Path(path)
+    if endings and target.suffix.lower() not in endings:
+        raise InputError(f"{path}: a name that ends in {', '.join(endings)} is accepted")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:

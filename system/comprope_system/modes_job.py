@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 from comprope.errors import InputError
 from comprope.rope.modelfile import load, with_changes
 from comprope.rope.parameters import Base
-from comprope.whole import require_writable, whole_file
+from comprope.whole import PICTURES, require_writable, whole_file
 
 from .hanging import side_string
 from .modes import Mode, Modes, modes
 from .presets import model_path
 from .studies.draw import COLOURS, label, legend, panels
-from .trip_job import PICTURES, assignments
+from .trip_job import assignments
 
 SHOWN = 6  # shapes in the picture
 
@@ -37,11 +37,9 @@ class Request:
 
 def run(request: Request) -> Modes:
     """Compute the modes, print a table and write what is asked for; raises `InputError` for bad input."""
-    for path in (request.plot, request.json):
+    for path, endings in ((request.plot, PICTURES), (request.json, ())):
         if path:
-            require_writable(path)
-    if request.plot and request.plot.suffix.lower() not in PICTURES:
-        raise InputError(f"{request.plot}: a name that ends in {', '.join(PICTURES)} is accepted for a picture")
+            require_writable(path, endings)
     model = with_changes(load(model_path(request.model)), assignments(request.changes), "--set")
     if not 0.0 <= request.car <= model.shaft.height:
         raise InputError(f"--car {request.car:g}: 0 to shaft.height = {model.shaft.height:g} m is accepted")

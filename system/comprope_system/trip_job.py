@@ -19,7 +19,7 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.engine import RopeEngine
 from comprope.rope.model import CompensationRope
 from comprope.rope.modelfile import load, with_changes
-from comprope.whole import require_writable
+from comprope.whole import PAGES, PICTURES, require_writable
 
 from .animation.camera import Camera
 from .cosim.direct import DirectParticipant
@@ -29,7 +29,6 @@ from .presets import drive_path, model_path
 from .simulation import Progress as Report
 from .simulation import Simulated, Timing, simulate, summary
 
-PICTURES = (".png", ".pdf", ".svg")
 SETTLE = 8.0  # s simulated after the trip, while the rope swings freely
 
 
@@ -105,11 +104,9 @@ def _rope(lift: Lift) -> CompensationRope:
 
 def _require_files(request: Request) -> None:
     """Refuse files that could not be written, before the long computation."""
-    for path in (request.out, request.plot, request.report):
+    for path, endings in ((request.out, ()), (request.plot, PICTURES), (request.report, PAGES)):
         if path:
-            require_writable(path)
-    if request.plot and request.plot.suffix.lower() not in PICTURES:
-        raise InputError(f"{request.plot}: a name that ends in {', '.join(PICTURES)} is accepted for a picture")
+            require_writable(path, endings)
 
 
 def _model(request: Request) -> tuple[RopeModel, dict[str, dict[str, Any]]]:

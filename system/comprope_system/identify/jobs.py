@@ -12,9 +12,8 @@ from typing import Any
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from comprope.errors import InputError
 from comprope.rope.modelfile import dump
-from comprope.whole import require_writable
+from comprope.whole import PAGES, require_writable
 
 from ..executors import workers
 from . import texts
@@ -22,7 +21,6 @@ from .campaign import Campaign, load_campaign
 from .plain import save_json
 
 Say = Callable[[str], None]
-PAGES = (".html", ".htm")
 
 
 @dataclass(frozen=True)
@@ -168,11 +166,9 @@ def journey(request: Request) -> Any:
 
 def _begin(request: Request) -> Campaign:
     """Refuse files that could not be written, then read the campaign."""
-    for path in (request.json, request.report, request.model):
+    for path, endings in ((request.json, ()), (request.model, ()), (request.report, PAGES)):
         if path:
-            require_writable(path)
-    if request.report and request.report.suffix.lower() not in PAGES:
-        raise InputError(f"{request.report}: a name that ends in {' or '.join(PAGES)} is accepted for a page")
+            require_writable(path, endings)
     return load_campaign(request.campaign)
 
 
