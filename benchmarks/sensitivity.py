@@ -3,7 +3,7 @@
     python benchmarks/sensitivity.py [--seconds 8] [--repeats 7]
 
 All in one process, in turns, and the least of several repeats counts. The run is a trip of 20 m in the 50 m test tower,
-seen by two displacement sensors and at the sheave.
+seen by two displacement sensors and at the sheave; at last beside effects that act, each against a plain replay with it.
 """
 
 import argparse
@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from comprope.rope.modelfile import validated
+from comprope.rope.modelfile import validated, with_changes
 from comprope_system.identify.campaign import Channel, Run
 from comprope_system.identify.replay import replay
 from comprope_system.identify.sensitivities import replay_with_sensitivities
@@ -48,6 +48,12 @@ KEYS = (
     "effects.intrinsic_curvature.curvature", "effects.guide_friction.coulomb_force",
 )  # fmt: skip
 COUNTS = (0, 1, 5, 10, 20)
+BESIDE = 10  # parameters beside an effect
+ACTING = {
+    "air drag": {"effects.air_drag.drag_coefficient": 1.0},
+    "bearing friction": {"effects.bearing_friction.coulomb_torque": 10.0},
+    "hysteresis": {"effects.bending_hysteresis.friction_moment": 1.0, "effects.bending_hysteresis.yield_curvature": 0.1},
+}
 
 
 def trip_of(seconds: float) -> Run:
@@ -66,7 +72,18 @@ def cases(run: Run) -> dict[str, Callable[[], object]]:
             found[f"{count:2} parameters{', exact' if exact else ''}"] = lambda own=own, exact=exact: replay_with_sensitivities(
                 MODEL, run, CHANNELS, own, exact=exact
             )
+    own = {key: {key: 1.0} for key in KEYS[:BESIDE]}
+    for effect, values in ACTING.items():
+        model = with_changes(MODEL, values)
+        found[f"plain, {effect}"] = lambda model=model: replay(model, run, CHANNELS)
+        found[f"{BESIDE} parameters, {effect}"] = lambda model=model: replay_with_sensitivities(model, run, CHANNELS, own)
     return found
+
+
+def beside(name: str) -> str:
+    """The plain replay that a case is held against."""
+    effect = name.rpartition(", ")[2]
+    return f"plain, {effect}" if effect in ACTING else "plain"
 
 
 def main() -> None:
@@ -85,7 +102,7 @@ def main() -> None:
             call()
             least[name] = min(least[name], time.perf_counter() - begin)
     for name, seconds in least.items():
-        print(f"{name:22} {seconds:7.3f} s {seconds / least['plain']:6.2f} x plain")
+        print(f"{name:32} {seconds:7.3f} s {seconds / least[beside(name)]:6.2f} x plain")
 
 
 if __name__ == "__main__":
