@@ -20,7 +20,7 @@ from .point import Point, Predictions, gathered, submit
 from .problem import Problem, pose
 from .rivals import Say, Trial, challenged, least_misfit, rivals, second_look
 from .scores import score
-from .screen import Screened, screen
+from .screen import Screened, alike, screen
 
 Floats = NDArray[np.float64]
 
@@ -29,7 +29,6 @@ UNKNOWN = 10.0  # its price
 COMMON = 1.06  # misfit per datum that a model with the right effect may leave
 USUAL = 5.0  # strain of a plant whose data sheets are as good as usual
 MUCH = 2.0  # misfit per datum of the best fit above which effects are looked at from other masses as well
-ALIKE = 0.7  # cosine above which two effects look the same in these data
 
 
 @dataclass(frozen=True)
@@ -143,12 +142,6 @@ def _alike(found: list[Trial]) -> tuple[tuple[str, str], ...]:
     traces = [one.seen for one in found]
     for k, a in enumerate(traces):
         for b in traces[k + 1 :]:
-            if _cosine(a.sideways, b.sideways) > ALIKE:
+            if alike(a, b):
                 pairs.append((a.hypothesis.effect, b.hypothesis.effect))
     return tuple(pairs)
-
-
-def _cosine(a: Floats, b: Floats) -> float:
-    """Largest cosine between two spans of directions."""
-    qa, qb = (np.linalg.qr(one)[0] for one in (a, b))
-    return float(np.linalg.svd(qa.T @ qb, compute_uv=False)[0])

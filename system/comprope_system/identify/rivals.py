@@ -16,7 +16,7 @@ from .point import Point
 from .present import shapes_of
 from .problem import Problem
 from .scores import price, score
-from .screen import Screened, screen
+from .screen import Screened, alike, screen
 from .starts import best_start
 
 Say = Callable[[str], None]
@@ -67,7 +67,17 @@ def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitt
         leader = _leader(found, len(problem.data))
     if found[leader].refined:
         found[leader] = _finished(problem, origin, found[leader])
+        _twins_fitted(problem, origin, screened, none, found, leader, say)
     return found
+
+
+def _twins_fitted(
+    problem: Problem, origin: Point, screened: Sequence[Screened], none: Fitted, found: list[Trial], leader: int, say: Say
+) -> None:
+    """Fit what looks like the leader as well: of two effects with much the same trace a linear look may have misjudged one."""
+    for k, one in enumerate(screened):
+        if not found[k].refined and alike(one, screened[leader]):
+            found[k] = _on_full_model(problem, origin, one, none, found, say)
 
 
 def challenged(

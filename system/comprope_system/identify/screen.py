@@ -18,6 +18,7 @@ from .spectrum import frequencies
 from .turning import solve_turned
 
 Floats = NDArray[np.float64]
+ALIKE = 0.7  # cosine above which two effects look the same in these data
 CLOSE = 5.0  # misfit per datum of a fit below which looks are best taken from there
 
 
@@ -44,6 +45,12 @@ class Screened:
     def strain(self) -> float:
         """What the plant costs where its refinement begins."""
         return strain(self.start)
+
+
+def alike(a: Screened, b: Screened) -> bool:
+    """Whether two effects look the same in these data: the largest cosine between what their traces span, free of the plant's."""
+    qa, qb = (np.linalg.qr(one.sideways)[0] for one in (a, b))
+    return bool(np.linalg.svd(qa.T @ qb, compute_uv=False)[0] > ALIKE)
 
 
 def screen(
