@@ -1,4 +1,4 @@
-"""From where derivatives alone do not lead back: another mass of the rope, a resonance, a frequency between those tried."""
+"""Where derivatives alone mislead: another mass of the rope, a resonance, a frequency between those tried, friction."""
 
 import numpy as np
 import pytest
@@ -6,6 +6,7 @@ import pytest
 from comprope.rope.effects import REGISTRY
 from comprope_system.identify.add import prepare
 from comprope_system.identify.campaign import load_campaign
+from comprope_system.identify.diagnose import diagnose
 from comprope_system.identify.elsewhere import seen_from_elsewhere
 from comprope_system.identify.fit import evaluate
 from comprope_system.identify.hypotheses import NUISANCES, of_effect, of_instruments, together
@@ -61,6 +62,16 @@ def test_two_effects_at_once_are_brought_into_step(ground):
     assert begun.misfit > 50.0 * len(ground.problem.data)
     assert found.misfit < 1.3 * len(ground.problem.data)
     assert plant_results(ground.campaign, found)["rope.mass_per_length"].value == pytest.approx(LIGHT, rel=0.01)
+
+
+def test_of_two_effects_that_look_alike_both_are_fitted(tmp_path, executor):
+    """Dry friction that holds the sheave nearly still looks like a damper, and a linear look at it far too poor to be worth a fit."""
+    campaign = load_campaign(virtual_lift.campaign(tmp_path / "dry", {"effects.guide_friction.coulomb_force": 60.0}))
+    found = diagnose(campaign, executor)
+    fitted = {one.hypothesis.effect: one for one in found.ranking if one.refined}
+    assert {"guide_friction", "sheave_damper"} <= set(fitted)
+    assert found.verdict == "guide_friction"
+    assert fitted["guide_friction"].fitted.misfit < fitted["sheave_damper"].fitted.misfit
 
 
 def test_what_oscillates_is_stepped_by_little():
