@@ -65,7 +65,7 @@ def test_two_effects_at_once_are_brought_into_step(ground):
 
 
 def test_of_two_effects_that_look_alike_both_are_fitted(tmp_path, executor):
-    """Dry friction that holds the sheave nearly still looks like a damper; a linear look has it far too poor to be worth a fit."""
+    """Dry friction that holds the sheave nearly still looks like a damper; its linear look is far too poor to be worth a fit."""
     campaign = load_campaign(virtual_lift.campaign(tmp_path / "dry", {"effects.guide_friction.coulomb_force": 60.0}))
     found = diagnose(campaign, executor)
     fitted = {one.hypothesis.effect: one for one in found.ranking if one.refined}
