@@ -95,10 +95,10 @@ def verdict(judged: Judged) -> list[str]:
         told = "Nothing is missing: with its plant parameters refitted the model is as near as noise allows"
         return [f"{told} (probability {chance(surely['adequate'])}).", *bent, *ruled_out]
     return [
-        *ruled_out,
         f"Something is missing, and none of the known effects explains it (probability {chance(surely['unknown'])}).",
         *bent,
         "See what the rest is locked to: that is the clue.",
+        *ruled_out,
     ]
 
 
@@ -121,7 +121,7 @@ def _missing(judged: Judged) -> str:
 def _bent(found: Diagnosis) -> list[str]:
     """What a fit asks of the plant that no data sheet allows."""
     told = [f"{key} by {change:+.0%}, {abs(off):.0f} times what it usually errs by" for key, change, off in far_off(found)]
-    return [f"For this the plant must be far off what is stated: {'; '.join(told)}."] if told else []
+    return [f"The fit needs a plant far off what is stated: {'; '.join(told)}."] if told else []
 
 
 def _twins(found: Diagnosis) -> list[str]:
