@@ -150,6 +150,18 @@ def test_derivatives_beside_effects_that_act(changes: dict[str, float], name: st
     assert max(left[column] for column in MOTIONS[:3]) < 0.02
 
 
+@pytest.mark.parametrize(("changes", "exact"), [({}, False), (SLIPPING, True)], ids=["plain", "hysteresis"])
+def test_wires_that_stick_and_slip_have_exact_derivatives_unasked(changes: dict[str, float], exact: bool) -> None:
+    """With the factor that the step has left they may grow without end beside them."""
+    model, directions = with_changes(MODEL, changes), {"bending": DIRECTIONS["bending"]}
+    found = {
+        asked: replay_with_sensitivities(model, measured(), CHANNELS, directions, exact=asked)[1]["bending"]["axle"]
+        for asked in (None, True, False)
+    }
+    assert np.array_equal(found[None], found[exact])
+    assert not np.array_equal(found[None], found[not exact])
+
+
 def path(car: float, after: float) -> np.ndarray:
     """The ends' path while the car goes from one height to another in 10 ms."""
     ends = np.zeros((4, 6))
