@@ -8,6 +8,8 @@ from pathlib import Path
 
 from .errors import InputError
 
+ENDINGS = {"page": (".html", ".htm"), "picture": (".png", ".pdf", ".svg")}
+
 
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[Path]:
@@ -37,18 +39,14 @@ def text_of(path: str | Path) -> str:
         raise InputError(f"{path}: not UTF-8 text (byte {error.start + 1}); save the file as UTF-8") from None
 
 
-PAGES, PICTURES = (".html", ".htm"), (".png", ".pdf", ".svg")
-
-
-def require_writable(path: str | Path, endings: tuple[str, ...] = ()) -> None:
+def require_writable(path: str | Path, kind: str | None = None) -> None:
     """Make the folder of a file to come; raises `InputError` if the file could not be written there.
 
-    `endings` are those that its name may have, if not any. Asked before a long computation, so that it is not lost for a
-    mistyped path.
+    A file of a `kind` has an ending that tells it. Asked before a long computation, so that it is not lost for a mistyped path.
     """
     target = Path(path)
-    if endings and target.suffix.lower() not in endings:
-        raise InputError(f"{path}: a name that ends in {', '.join(endings)} is accepted")
+    if kind and target.suffix.lower() not in ENDINGS[kind]:
+        raise InputError(f"{path}: a name that ends in {', '.join(ENDINGS[kind])} is accepted for a {kind}")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from comprope.errors import InputError
 from comprope.rope.modelfile import load, with_changes
 from comprope.rope.parameters import Base
-from comprope.whole import PICTURES, require_writable, whole_file
+from comprope.whole import require_writable, whole_file
 
 from .hanging import side_string
 from .modes import Mode, Modes, modes
@@ -37,9 +37,9 @@ class Request:
 
 def run(request: Request) -> Modes:
     """Compute the modes, print a table and write what is asked for; raises `InputError` for bad input."""
-    for path, endings in ((request.plot, PICTURES), (request.json, ())):
+    for path, kind in ((request.plot, "picture"), (request.json, None)):
         if path:
-            require_writable(path, endings)
+            require_writable(path, kind)
     model = with_changes(load(model_path(request.model)), assignments(request.changes), "--set")
     if not 0.0 <= request.car <= model.shaft.height:
         raise InputError(f"--car {request.car:g}: 0 to shaft.height = {model.shaft.height:g} m is accepted")

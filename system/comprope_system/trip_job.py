@@ -19,7 +19,7 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.engine import RopeEngine
 from comprope.rope.model import CompensationRope
 from comprope.rope.modelfile import load, with_changes
-from comprope.whole import PAGES, PICTURES, require_writable
+from comprope.whole import require_writable
 
 from .animation.camera import Camera
 from .cosim.direct import DirectParticipant
@@ -104,9 +104,9 @@ def _rope(lift: Lift) -> CompensationRope:
 
 def _require_files(request: Request) -> None:
     """Refuse files that could not be written, before the long computation."""
-    for path, endings in ((request.out, ()), (request.plot, PICTURES), (request.report, PAGES)):
+    for path, kind in ((request.out, None), (request.plot, "picture"), (request.report, "page")):
         if path:
-            require_writable(path, endings)
+            require_writable(path, kind)
 
 
 def _model(request: Request) -> tuple[RopeModel, dict[str, dict[str, Any]]]:

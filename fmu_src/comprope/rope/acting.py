@@ -6,12 +6,17 @@ length, itself a difference of positions of tens of metres; so segments are move
 the difference keeps its figures however small it is.
 """
 
+from .direction import entry, gauge, shift
 from .elastica import bend
 from .hooks import all_forces, all_moments
 from .jit import kernel
-from .slots import CA, EA, ELEMENT
+from .slots import CA, EA, ELEMENT, R
 from .vector import LANES
 from .work import FX, INVERSE, MOMENT, SPIN, TENSION, TX, TY
+
+# What effects do along a direction, beside rope and contact: nothing; begin with it; change, as the model has some;
+# change, and their history with them.
+BY_HAND, BEGUN, DIFFERENCED, CHANGED = range(4)
 
 
 @kernel
@@ -82,3 +87,56 @@ def effects_on(n, t, p1, l0, w, e0, q0, v0, moves, q, v, w1, e, at, h, dq, dv, d
     stretch_on(n, p1, l0, w, e0, moves, v, w1)
     bend(n, p1, w1)
     effect_forces(n, t, p1, q, v, w1, w, f, hi, hd, power)
+
+
+@kernel
+def changing(directions, way):
+    """Whether effects of the model change along some direction."""
+    found = False
+    for k in range(directions):
+        found = found or way[k] >= DIFFERENCED
+    return found
+
+
+@kernel
+def recall(state_size, k, e, own, h0, dh, hi):
+    """Set hi to the history with which direction k is evaluated: the rope's own, changed, or that of effects that begin."""
+    for i in range(state_size):
+        hi[i] = dh[state_size * k + i] if own[k] != 0.0 else h0[i] + e * dh[state_size * k + i]
+
+
+@kernel
+def keep_history(state_size, k, e, own, hb, hd, dh):
+    """Keep direction k's history hd of a step in which the rope's own became hb."""
+    for i in range(state_size):
+        dh[state_size * k + i] = hd[i] if own[k] != 0.0 else (hd[i] - hb[i]) / e
+
+
+@kernel
+def effects_along(
+    n, t, k, h, state_size, parameters, p, q0, v0, h0, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1, moves, q, v,
+    hi, hd, w1, f, power,
+):  # fmt: skip
+    """Set f to the forces of effects a step along direction k, hd to their history there; returns that step."""
+    b = entry(n + 1, k)
+    e = gauge(n, b, p[R], limit[k], dq, dv)
+    shift(parameters, k, e, at, toward, p1)
+    recall(state_size, k, e, own, h0, dh, hi)
+    if way[k] == BEGUN:
+        effect_forces(n, t, p1, q0, v0, w, w, f, hi, hd, power)
+    else:
+        effects_on(n, t, p1, p[ELEMENT], w, e0, q0, v0, moves, q, v, w1, e, b, h, dq, dv, da, f, hi, hd, power)
+    return e
+
+
+@kernel
+def histories(
+    n, t, state_size, directions, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1, moves, q, v,
+    hi, hb, hd, w1, f, power,
+):  # fmt: skip
+    """Keep the histories that changed over a step, as the state it reached makes them."""
+    for k in range(directions):
+        if way[k] == CHANGED:
+            e = effects_along(n, t, k, 0.0, state_size, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv,
+                              da, dh, p1, moves, q, v, hi, hd, w1, f, power)  # fmt: skip
+            keep_history(state_size, k, e, own, hb, hd, dh)

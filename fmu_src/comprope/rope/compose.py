@@ -23,6 +23,7 @@ from . import (
     acting,
     band,
     contact,
+    direction,
     display,
     dynamics,
     elastica,
@@ -56,7 +57,7 @@ from .effects.sound import require_sound
 
 MODULES = (
     work, words, jit, hooks, elastica, contact, ends, dynamics, band, zone, newmark, ledger, march, statics, standing, following,
-    travel, sensors, display, vector, lanes, slope, groove, acting, tangent, journey, glance,
+    travel, sensors, display, vector, lanes, slope, groove, direction, acting, tangent, journey, glance,
 )  # fmt: skip
 _LOCK = threading.RLock()
 ENTRIES = {

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..declare import quantities
 from ..errors import InputError, SimulationError
+from .acting import BEGUN, BY_HAND, CHANGED, DIFFERENCED
 from .bound import without_friction
 from .compose import compiled
 from .effects.base import REGISTRY
@@ -21,7 +22,7 @@ from .parameters import Base
 from .slots import ALPHA, DECLARED, ELEMENT, PIT, RHO, R, slot
 from .standing import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT, element_length
 from .state import Array
-from .tangent import BEGUN, BY_HAND, CHANGED, DIFFERENCED, ENDS_STEP
+from .tangent import ENDS_STEP
 from .vector import LANES
 
 Direction = Mapping[str, float]
@@ -245,7 +246,7 @@ def _limit(p: Array, dp: Array) -> float:
 
 
 def _way(p: Array, dp: Array) -> int:
-    """How forces are differentiated along dp (see `tangent`): what acts decides.
+    """How forces are differentiated along dp (see `acting`): what acts decides.
 
     An effect with history acts when its first quantity does.
     """

@@ -9,15 +9,12 @@ predictor as the step's own, dq = dq0 + h (dv0 + h/2 da0), dv = dv0 + h da0, one
 where J is the tangent of the step and D the directional derivative of the forces (see `slope`, `groove` and
 `acting`), which is exact. J may be that of the iterate which was factored, with the contact's share renewed: that errs in the
 correction alone; or it is renewed as a whole (`exact`). The next dc follows from the balance of the step.
-What the ends do with dp is read off their paths by differences.
-
-Directions go in blocks of LANES: number (node i, component c) of direction k in dq, dv, da, dc and D sits at
-(k // LANES 2 m + 2 i + c) LANES + k % LANES, as `lanes` has it. `dp` has the parameters' changes in
-the same way, and `at` and `toward`, direction after direction, where the parameters begin and how they change.
+What the ends do with dp is read off their paths by differences. How directions are kept is told in `direction`.
 """
 
-from .acting import add_lane, effect_forces, effects_on
+from .acting import BY_HAND, DIFFERENCED, add_lane, changing, effect_forces, effects_along, histories, keep_history
 from .contact import clear
+from .direction import entry, gauge, shift
 from .dynamics import forces, node_mass
 from .ends import PATH, PATHS, place_ends
 from .groove import centre_slope, groove_slope
@@ -25,61 +22,13 @@ from .jit import kernel
 from .lanes import solve_lanes
 from .newmark import renew
 from .slope import ahead, contact_alone, elongations, mass_slope, rope_slope
-from .slots import ALPHA, ELEMENT, J, M, R
+from .slots import ALPHA, J, M, R
 from .vector import LANES, put, take
 from .work import FIRST, LAST
 from .zone import factor_zone, fill
 
-MOVE = 1e-7  # m, the largest move by which effects are differenced
-PERIOD = 0.1  # s, by which velocities are compared with moves
-TURN = 1e-3  # share of the sheave's turn, which matters to forces through an eccentric groove alone
-COARSE = 32  # nodes between those that are asked for the largest move
 GROUP = 3  # blocks that are carried on at once: enough to fill each other's waiting, few enough to stay at hand
 ENDS_STEP = 1e-2  # of `limit`: the difference by which the ends' paths are differentiated
-
-# What effects do along a direction, beside rope and contact: nothing; begin with it; change, as the model has some;
-# change, and their history with them.
-BY_HAND, BEGUN, DIFFERENCED, CHANGED = range(4)
-
-
-@kernel
-def entry(m, k):
-    """Where the entries of direction k begin."""
-    return (k // LANES * 2 * m) * LANES + k % LANES
-
-
-@kernel
-def shift(parameters, k, e, at, toward, p1):
-    """Set p1 to the parameters of direction k, e along it."""
-    for j in range(parameters):
-        p1[j] = at[parameters * k + j] + e * toward[parameters * k + j]
-
-
-@kernel
-def gauge(n, b, radius, limit, dq, dv):
-    """The step e by which the direction that begins at b is differenced: a largest move of MOVE, and at most `limit`."""
-    largest = 0.0
-    for i in range(0, n, COARSE):
-        k = b + 2 * LANES * i
-        largest = max(largest, abs(dq[k]), abs(dq[k + LANES]), PERIOD * abs(dv[k]), PERIOD * abs(dv[k + LANES]))
-    k = b + 2 * LANES * n
-    largest = max(largest, abs(dq[k]), PERIOD * abs(dv[k]))
-    largest = max(largest, radius * TURN * abs(dq[k + LANES]), radius * PERIOD * abs(dv[k + LANES]))
-    return limit if largest * limit <= MOVE else MOVE / largest
-
-
-@kernel
-def recall(state_size, k, e, own, h0, dh, hi):
-    """Set hi to the history with which direction k is evaluated: the rope's own, changed, or that of effects that begin."""
-    for i in range(state_size):
-        hi[i] = dh[state_size * k + i] if own[k] != 0.0 else h0[i] + e * dh[state_size * k + i]
-
-
-@kernel
-def keep_history(state_size, k, e, own, hb, hd, dh):
-    """Keep direction k's history hd of a step in which the rope's own became hb."""
-    for i in range(state_size):
-        dh[state_size * k + i] = hd[i] if own[k] != 0.0 else (hd[i] - hb[i]) / e
 
 
 @kernel
@@ -99,11 +48,11 @@ def renew_zone(n, h, p, q, v, f, touch, A, L, B, Z):
 
 
 @kernel
-def renew_all(n, t, h, p, q, v, h0, f1, touch, w, A, L, B, Z, r, hb, power):
-    """Factor the whole tangent in the state reached, where the forces are f1."""
+def renew_all(n, t, h, p, q, v, h0, f, touch, w, A, L, B, Z, r, hb, power):
+    """Factor the whole tangent in the state reached, where the forces are f."""
     alpha = p[ALPHA]
     ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
-    forces(n, t, p, q, v, w, f1, touch, h0, hb, power, Z, ck, cc, True)
+    forces(n, t, p, q, v, w, f, touch, h0, hb, power, Z, ck, cc, True)
     renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch)
 
 
@@ -114,40 +63,14 @@ def arrive(
     """What all directions start from in the state reached: forces f1 of effects if any change, elongations e0, J."""
     acting = changing(directions, way)
     if exact:
-        renew_all(n, t, h, p, q0, v0, hp, f1, touch, w, A, L, B, Z, moves, hb, power)
+        renew_all(n, t, h, p, q0, v0, hp, f, touch, w, A, L, B, Z, moves, hb, power)
     else:
         if acting:
-            forces(n, t, p, q0, v0, w, f1, touch, hp, hb, power, Z, 0.0, 0.0, False)
+            forces(n, t, p, q0, v0, w, f, touch, hp, hb, power, Z, 0.0, 0.0, False)
         renew_zone(n, h, p, q0, v0, f, touch, A, L, B, Z)
     elongations(n, p, v0, w, e0)
     if acting:
         effect_forces(n, t, p, q0, v0, w, w, f1, hp, hb, power)
-
-
-@kernel
-def changing(directions, way):
-    """Whether effects of the model change along some direction."""
-    found = False
-    for k in range(directions):
-        found = found or way[k] >= DIFFERENCED
-    return found
-
-
-@kernel
-def effects_along(
-    n, t, k, h, state_size, parameters, p, q0, v0, h0, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1, moves, q, v,
-    hi, hd, w1, f, power,
-):  # fmt: skip
-    """Set f to the forces of effects a step along direction k, hd to their history there; returns that step."""
-    b = entry(n + 1, k)
-    e = gauge(n, b, p[R], limit[k], dq, dv)
-    shift(parameters, k, e, at, toward, p1)
-    recall(state_size, k, e, own, h0, dh, hi)
-    if way[k] == BEGUN:
-        effect_forces(n, t, p1, q0, v0, w, w, f, hi, hd, power)
-    else:
-        effects_on(n, t, p1, p[ELEMENT], w, e0, q0, v0, moves, q, v, w1, e, b, h, dq, dv, da, f, hi, hd, power)
-    return e
 
 
 @kernel
@@ -260,19 +183,6 @@ def slopes(
 
 
 @kernel
-def histories(
-    n, t, state_size, directions, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1, moves, q, v,
-    hi, hb, hd, w1, f, power,
-):  # fmt: skip
-    """Keep the histories that changed over a step, as the state it reached makes them."""
-    for k in range(directions):
-        if way[k] == CHANGED:
-            e = effects_along(n, t, k, 0.0, state_size, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv,
-                              da, dh, p1, moves, q, v, hi, hd, w1, f, power)  # fmt: skip
-            keep_history(state_size, k, e, own, hb, hd, dh)
-
-
-@kernel
 def step_directions(
     n, t, h, dt, s, exact, state_size, directions, blocks, parameters, p, path, q0, v0, a0, hp, q, v, a, f, w, A, L, B, Z,
     touch, power, at, toward, dp, limit, dpath, guided, way, own, dq, dv, da, dc, dh, p1, path1, centre, moves, w1, e0, f1, hi,
@@ -303,9 +213,10 @@ def differentiate(
     way, own, dq, dv, da, dc, dh, p1, centre, moves, w1, e0, f1, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """Set D to the derivative of the forces along all directions, and lift to that of the vertical force on the sheave."""
-    forces(n, t, p, q0, v0, w, f1, touch, h0, hb, power, Z, 0.0, 0.0, False)
+    forces(n, t, p, q0, v0, w, f, touch, h0, hb, power, Z, 0.0, 0.0, False)
     elongations(n, p, v0, w, e0)
-    effect_forces(n, t, p, q0, v0, w, w, f1, h0, hb, power)
+    if changing(directions, way):
+        effect_forces(n, t, p, q0, v0, w, w, f1, h0, hb, power)
     slopes(n, t, 0.0, 1.0, 0.0, False, state_size, directions, 0, blocks, parameters, p, q0, v0, a0, h0, w, e0, f1, at,
            toward, dp, limit, way, own, dq, dv, da, dc, dh, p1, centre, moves, q, v, hi, hb, hd, w1, f, touch, power, D,
            lift)  # fmt: skip

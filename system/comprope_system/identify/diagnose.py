@@ -91,7 +91,7 @@ def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fi
     count = len(problem.data)
     scores = {"adequate": score(none.misfit, count, none.strain)}
     scores |= {one.hypothesis.effect: one.score(count) for one in found}
-    scores["unknown"] = _unknown(none, found, scores, count)
+    scores["unknown"] = _unknown(none, found, count)
     top = max(scores.values())
     weights = {name: float(np.exp(value - top)) for name, value in scores.items()}
     probabilities = {name: weight / sum(weights.values()) for name, weight in weights.items()}
@@ -102,13 +102,14 @@ def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fi
     return Diagnosis(campaign, problem, nominal, none, ranking, probabilities, _alike(found), verdict, kind)
 
 
-def _unknown(none: Fitted, found: list[Trial], scores: dict[str, float], count: int) -> float:
-    """Score of an effect that nobody knows, which would leave about as much as what is known does."""
-    known = max(found, key=lambda one: scores[one.hypothesis.effect]).fitted if found else none
-    explains = known.hypothesis is not None and scores[known.hypothesis.effect] > scores["adequate"]
-    left, best = (min(known.misfit / count, COMMON), known) if explains else (1.0, none)
+def _unknown(none: Fitted, found: list[Trial], count: int) -> float:
+    """Score of an effect that nobody knows, which would leave about as much as one that is known and explains something."""
+    left, bent = 1.0, none.strain
+    known = max(found, key=lambda one: one.score(count), default=None)
+    if known and known.score(count) > score(none.misfit, count, none.strain):
+        left, bent = min(known.fitted.misfit / count, COMMON), known.fitted.strain
     excess = max(none.misfit / count - 1.0, 0.0)
-    return score(count * max(left, 1.0 + UNEXPLAINED * excess), count, UNKNOWN + min(best.strain, USUAL))
+    return score(count * max(left, 1.0 + UNEXPLAINED * excess), count, UNKNOWN + min(bent, USUAL))
 
 
 def _candidate(one: Trial, scores: dict[str, float], probabilities: dict[str, float], count: int) -> Candidate:

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from comprope.rope.modelfile import dump
-from comprope.whole import PAGES, require_writable
+from comprope.whole import require_writable
 
 from ..executors import workers
 from . import texts
@@ -166,9 +166,9 @@ def journey(request: Request) -> Any:
 
 def _begin(request: Request) -> Campaign:
     """Refuse files that could not be written, then read the campaign."""
-    for path, endings in ((request.json, ()), (request.model, ()), (request.report, PAGES)):
+    for path, kind in ((request.json, None), (request.model, None), (request.report, "page")):
         if path:
-            require_writable(path, endings)
+            require_writable(path, kind)
     return load_campaign(request.campaign)
 
 

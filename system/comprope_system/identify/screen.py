@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,11 +47,15 @@ class Screened:
         """What the plant costs where its refinement begins."""
         return strain(self.start)
 
+    @cached_property
+    def span(self) -> Floats:
+        """An orthonormal basis (N, directions) of the directions free of the plant's."""
+        return np.asarray(np.linalg.qr(self.sideways)[0])
+
 
 def alike(a: Screened, b: Screened) -> bool:
     """Whether two effects look the same in these data: the largest cosine between what their traces span, free of the plant's."""
-    qa, qb = (np.linalg.qr(one.sideways)[0] for one in (a, b))
-    return bool(np.linalg.svd(qa.T @ qb, compute_uv=False)[0] > ALIKE)
+    return bool(np.linalg.svd(a.span.T @ b.span, compute_uv=False)[0] > ALIKE)
 
 
 def screen(
