@@ -2,11 +2,13 @@
 
 from dataclasses import replace
 from functools import cache
+from itertools import pairwise
 from math import pi
 
 import numpy as np
 import pytest
 
+from comprope.drive.trajectory import Motion
 from comprope.errors import InputError
 from comprope.rope.model import CompensationRope, values_of
 from comprope.rope.modelfile import with_changes
@@ -18,6 +20,7 @@ from comprope_system.identify.sensitivities import replay_with_sensitivities
 from comprope_system.trips import Trip
 from comprope_system.trips.profile import jerk_limited
 
+from .rope_tower import TOWER, way
 from .virtual_lift import LASER
 from .virtual_lift import MODEL as COARSE
 
@@ -189,6 +192,21 @@ def test_the_rope_itself_moves_to_the_same_bits_and_a_saved_state_goes_on() -> N
     beside.from_bytes(saved)
     ridden(beside, range(20, 30))
     assert beside.to_bytes() == expected
+
+
+@pytest.mark.parametrize("speed", [2.5, 6.0, 9.0, 15.0])
+def test_a_rope_takes_the_same_steps_with_and_without_derivatives_at_any_speed(speed: float) -> None:
+    """Above 6 m/s (elements of 5 cm, steps of 5 ms) time steps are shortened."""
+    tower, acceleration, dt = with_changes(TOWER, {"solver.step": 0.005}), 6.0, 0.02
+    plain, beside = CompensationRope(tower), SensitiveRope(tower, {"mass": {"sheave.mass": 1.0}})
+    times = np.arange(0.0, speed / acceleration + 2.0 * dt, dt)
+    car = [Motion(2.0 + 0.5 * acceleration * t * t, acceleration * t, acceleration) for t in times]
+    for rope in (plain, beside):
+        rope.settle(2.0, tower.shaft.height - 2.0)
+        for before, after in pairwise(car):
+            rope.step(dt, way(tower.sheave.radius, tower.shaft.height, before, after))
+    assert plain.count == beside.rope.count
+    assert plain.state.to_bytes() == beside.rope.state.to_bytes()
 
 
 def test_a_direction_may_begin_with_other_values_of_what_does_nothing_yet() -> None:

@@ -1,13 +1,11 @@
 """Whole communication steps with sensitivities: `march` and `travel`, and all directions beside the rope."""
 
-from math import ceil
-
 from .jit import kernel
 from .ledger import tally
 from .march import accept
 from .newmark import DEEPEST, HALVED, STEPS, attempt, copy
 from .tangent import step_directions
-from .travel import MOST, STEP, where
+from .travel import time_steps, where
 from .words import FINE, TOO_LONG
 
 
@@ -49,11 +47,9 @@ def travel_tangent(
     da, dc, dh, p1, path1, centre, moves, w1, e0, f1, hp, hi, hb, hd, D, lift,
 ):  # fmt: skip
     """What `travel.travel` does, and all directions beside it."""
-    t0, share = time[0], dt / p[STEP]
-    if not share <= MOST:
-        told[0], told[1], told[2] = dt, MOST, p[STEP]
+    t0, steps = time[0], time_steps(dt, p, path, time, told)
+    if steps == 0:
         return TOO_LONG
-    steps = max(1, ceil(share * (1.0 - 1e-9)))
     reached = march_tangent(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power,
                             P0, P, E, count, state_size, effects, exact, directions, blocks, parameters, at, toward, dp, limit,
                             dpath, guided, way, own, dq, dv, da, dc, dh, p1, path1, centre, moves, w1, e0, f1, hp, hi, hb, hd,

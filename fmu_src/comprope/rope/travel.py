@@ -23,18 +23,26 @@ def travel(
 
     After a failure the state is that of the last accepted time step, and `time` that of the step's start.
     """
-    t0, share, fastest = time[0], dt / p[STEP], speed(path)
-    passed = dt * fastest / (PASSED * p[ELEMENT])
-    if not (share <= MOST and passed <= MOST):
-        told[0], told[1], told[2], told[3] = dt, t0, fastest, MOST
+    t0, steps = time[0], time_steps(dt, p, path, time, told)
+    if steps == 0:
         return TOO_LONG
-    steps = max(1, ceil(share * (1.0 - 1e-9)), ceil(passed))
     reached = march(n, t0, dt, steps, p, path, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power,
                     P0, P, E, count, state_size, effects)  # fmt: skip
     if reached == 1.0:
         time[0] = t0 + dt
         return FINE
     return where(n, p, t0 + reached * dt, dt / steps / 2.0**DEEPEST, q0, count, told)
+
+
+@kernel
+def time_steps(dt, p, path, time, told):
+    """How many equal time steps a communication step of dt [s] takes; 0, and what to tell, if they are too many."""
+    share, fastest = dt / p[STEP], speed(path)
+    passed = dt * fastest / (PASSED * p[ELEMENT])
+    if not (share <= MOST and passed <= MOST):
+        told[0], told[1], told[2], told[3] = dt, time[0], fastest, MOST
+        return 0
+    return max(1, ceil(share * (1.0 - 1e-9)), ceil(passed))
 
 
 @kernel
