@@ -14,17 +14,17 @@ ROOT = Path(__file__).resolve().parent
 sys.path.insert(0, str(ROOT / "fmu_src"))
 
 from comprope import consent  # noqa: E402
-from comprope.drive.engine import ENTRY as DRIVE_ENTRY  # noqa: E402
-from comprope.drive.engine import interface as drive_interface  # noqa: E402
+from comprope.drive.cosimulation import ENTRY as DRIVE_ENTRY  # noqa: E402
+from comprope.drive.cosimulation import interface as drive_interface  # noqa: E402
 from comprope.errors import CompropeError, InputError  # noqa: E402
-from comprope.fmi.build import Origin, build  # noqa: E402
-from comprope.fmi.reference import reference  # noqa: E402
+from comprope.fmi.package import Origin, build  # noqa: E402
+from comprope.fmi.reference_result import reference  # noqa: E402
 from comprope.fmi.ssp import Part, wires_by_name, write_ssp  # noqa: E402
 from comprope.rope.effects import RopeModel  # noqa: E402
-from comprope.rope.engine import ENTRY as ROPE_ENTRY  # noqa: E402
-from comprope.rope.engine import interface as rope_interface  # noqa: E402
-from comprope.rope.modelfile import bundle, load  # noqa: E402
+from comprope.rope.model_file import bundle, load  # noqa: E402
 from comprope.rope.parameters import Sensor  # noqa: E402
+from comprope.rope.simulator.cosimulation import ENTRY as ROPE_ENTRY  # noqa: E402
+from comprope.rope.simulator.cosimulation import interface as rope_interface  # noqa: E402
 
 DEFAULT_MODEL = ROOT / "system" / "comprope_system" / "presets" / "tower50.toml"
 
@@ -63,8 +63,8 @@ def build_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin)
 
 def build_native_ropes(model_file: Path, sensors: int | None, out: Path, origin: Origin, versions: list[str]) -> list[Path]:
     """The rope's FMUs that need no Python, for some versions of FMI and every system that can be compiled for here."""
-    from comprope.native.build import STANDARDS, build_native  # loads the compiler, which the others do without
-    from comprope.native.link import toolchain
+    from comprope.native.linker import toolchain
+    from comprope.native.package import STANDARDS, build_native
 
     sys.stderr.write(f"compiling with {toolchain()}\n")
     chosen = [one for one in STANDARDS if one.version in versions]

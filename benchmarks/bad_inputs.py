@@ -21,9 +21,9 @@ from pathlib import Path
 import fmpy
 
 from comprope.errors import CompropeError
-from comprope.rope.modelfile import load
-from comprope_system.cosim.fmu import FmuParticipant
-from comprope_system.cosim.fmus import rope_fmu
+from comprope.rope.model_file import load
+from comprope_system.cosim.fmu_cache import rope_fmu
+from comprope_system.cosim.fmu_participant import FmuParticipant
 from comprope_system.presets import model_path
 
 ODD = (math.nan, math.inf, -math.inf, -1.0, 0.0, 1e300, -1e300, 1e-300)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from comprope.drive.parameters import Profile
-from comprope.drive.trajectory import Trip, plan
-from comprope.rope.model import CompensationRope
-from comprope.rope.modelfile import RopeModel, load, with_changes
+from comprope.drive.s_curve import Trip, plan
+from comprope.rope.model_file import RopeModel, load, with_changes
+from comprope.rope.simulator.rope import CompensationRope
 from comprope_system.presets import model_path
 
 COMMUNICATION = 0.02  # s

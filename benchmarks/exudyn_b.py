@@ -15,9 +15,9 @@ import numpy as np
 from cases import COMMUNICATION, path, ride
 
 from comprope.drive.parameters import Profile
-from comprope.drive.trajectory import Trip, plan
-from comprope.rope.model import CompensationRope
-from comprope.rope.modelfile import RopeModel, validated
+from comprope.drive.s_curve import Trip, plan
+from comprope.rope.model_file import RopeModel, validated
+from comprope.rope.simulator.rope import CompensationRope
 
 RADIUS, ELEMENTS, STEP = 0.306, 1099, 0.001
 CONTACT = {"stiffness": 4e7, "damping": 1e4, "friction_coefficient": 0.3, "slip_velocity": 0.02}

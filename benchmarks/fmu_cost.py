@@ -12,10 +12,10 @@ from pathlib import Path
 from realtime import Ride, direct, through_fmu
 
 from comprope.drive.parameters import Profile
-from comprope.drive.trajectory import Motion, plan
-from comprope.fmi.engine import ModelInterface
-from comprope.rope.engine import interface
-from comprope.rope.modelfile import load, with_changes
+from comprope.drive.s_curve import Motion, plan
+from comprope.fmi.model_interface import ModelInterface
+from comprope.rope.model_file import load, with_changes
+from comprope.rope.simulator.cosimulation import interface
 from comprope_system import presets
 
 DT, SECONDS, HEIGHT = 0.02, 24.0, 50.0

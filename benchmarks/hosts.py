@@ -18,10 +18,10 @@ from pathlib import Path
 
 from fmpy import read_model_description
 
-from comprope.native import link
-from comprope.native.ir import kernels, sizes
-from comprope.native.machine import TARGETS, machine_code
-from comprope.native.tables import kernels_header, model_source
+from comprope.native import linker
+from comprope.native.c_source import kernels_header, model_source
+from comprope.native.llvm_ir import kernels, sizes
+from comprope.native.targets import TARGETS, machine_code
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 from tests.native_fmu import tower
@@ -55,11 +55,11 @@ def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
     """Every scenario with the face in C compiled under sanitizers; the kernels are as in the FMU."""
     identity = model_source(tower(), SANITIZED, SANITIZED)
     generated = {"kernels.h": kernels_header(tower(), sizes({})), "model.c": identity}
-    for name, content in (link.face_sources() | {name: text.encode() for name, text in generated.items()}).items():
+    for name, content in (linker.face_sources() | {name: text.encode() for name, text in generated.items()}).items():
         (stage / name).write_bytes(content)
     (stage / "kernels.o").write_bytes(machine_code(kernels({}), TARGETS["linux"]))
     sources = sorted(str(path) for path in stage.glob("*.c"))
-    options = ["gcc", *_SANITIZED, f"-I{stage}", f"-I{link.HEADERS}"]
+    options = ["gcc", *_SANITIZED, f"-I{stage}", f"-I{linker.HEADERS}"]
     binary, host = str(stage / "face.so"), str(stage / "host")
     shared = ["-shared", "-fPIC", "-fvisibility=hidden"]
     subprocess.run([*options, *shared, *sources, str(stage / "kernels.o"), "-o", binary, "-lm"], check=True)
@@ -98,7 +98,7 @@ def _sanitized_part(name: str, content: bytes, identity: str, stage: Path) -> by
 def in_valgrind(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
     """Scenarios with the Linux binary of the FMU, kernels and all: memory not its own, not set, or not given back."""
     guid, binary, host = read_model_description(fmu).guid, unpacked(fmu, stage, "linux"), str(stage / "plain")
-    subprocess.run(["gcc", "-std=c11", "-O1", f"-I{link.HEADERS}", str(HOST), "-o", host, "-ldl", "-lpthread"], check=True)
+    subprocess.run(["gcc", "-std=c11", "-O1", f"-I{linker.HEADERS}", str(HOST), "-o", host, "-ldl", "-lpthread"], check=True)
     valgrind = ["valgrind", "-q", "--error-exitcode=9", "--leak-check=full", "--errors-for-leak-kinds=definite"]
     for scenario, number in {"cycle": 2, "states": 1, "wrong": 1}.items():
         yield scenario, run([*valgrind, host, scenario, *arguments(fmu, guid, binary, number)])
@@ -116,7 +116,7 @@ def in_wine(fmu: str, stage: Path, wine: str) -> Iterator[tuple[str, str]]:
     binary = unpacked(fmu, stage, "windows")
     host = str(stage / "host.exe")
     zig = [sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-windows-gnu"]
-    subprocess.run([*zig, "-std=c11", "-O1", f"-I{link.HEADERS}", str(HOST), "-o", host], check=True)
+    subprocess.run([*zig, "-std=c11", "-O1", f"-I{linker.HEADERS}", str(HOST), "-o", host], check=True)
     guid, windows_path = read_model_description(fmu).guid, "Z:" + binary.replace("/", "\\")
     for scenario in ("cycle", "states", "wrong"):
         yield scenario, run([wine, host, scenario, *arguments(fmu, guid, windows_path, SCENARIOS[scenario])])

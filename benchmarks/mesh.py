@@ -12,7 +12,7 @@ import argparse
 import numpy as np
 from cases import model, path, trip
 
-from comprope.rope.model import CompensationRope
+from comprope.rope.simulator.rope import CompensationRope
 
 FINEST, STEP, COMMUNICATION = 0.01, 0.002, 0.02  # m, s, s
 ORIGIN, TRAVEL, UNTIL = 10.0, 12.0, 12.0  # m, m, s

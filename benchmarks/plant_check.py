@@ -16,9 +16,9 @@ from plant.campaign import Plan, measured, planted, write
 from plant.faults import Rows
 from plant.sites import SITES, Site
 
-from comprope_system.identify.campaign import Campaign, Run, load_campaign
-from comprope_system.identify.replay import replay
-from comprope_system.trips import recover_trip
+from comprope_system.identification.data.campaign import Campaign, Run, load_campaign
+from comprope_system.identification.prediction.replay import replay
+from comprope_system.measurements import recover_trip
 
 SOUND: dict[str, dict[str, float]] = {"nothing": {}}
 COARSE, USUAL, FINE = (Plan(SOUND, {"element": size}) for size in (0.02, 0.01, 0.005))

@@ -18,10 +18,10 @@ import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
-from comprope.fmi.engine import ModelInterface
-from comprope.fmi.run import Run
-from comprope.rope.engine import interface
-from comprope.rope.modelfile import load
+from comprope.fmi.instance import Run
+from comprope.fmi.model_interface import ModelInterface
+from comprope.rope.model_file import load
+from comprope.rope.simulator.cosimulation import interface
 from comprope_system import presets
 
 STEP = 0.01

@@ -12,12 +12,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from comprope.rope.modelfile import validated, with_changes
-from comprope_system.identify.campaign import Channel, Run
-from comprope_system.identify.replay import replay
-from comprope_system.identify.sensitivities import replay_with_sensitivities
-from comprope_system.trips import Trip
-from comprope_system.trips.profile import jerk_limited
+from comprope.rope.model_file import validated, with_changes
+from comprope_system.identification.data.campaign import Channel, Run
+from comprope_system.identification.prediction.replay import replay
+from comprope_system.identification.prediction.replay_sensitivities import replay_with_sensitivities
+from comprope_system.measurements import Trip
+from comprope_system.measurements.jerk_limited_profile import jerk_limited
 
 MODEL = validated(
     {

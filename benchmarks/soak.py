@@ -17,7 +17,7 @@ from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
 from comprope.drive.parameters import Profile
-from comprope.drive.trajectory import Motion, plan
+from comprope.drive.s_curve import Motion, plan
 
 HEIGHT, WAIT = 50.0, 20.0  # m, s
 LANDINGS = [HEIGHT - 3.0 * k for k in range(17)] + [0.0]  # m

@@ -12,10 +12,10 @@ import os
 import time
 from pathlib import Path
 
-from comprope_system.executors import workers
-from comprope_system.studies.buildings import TOWER, with_sheave
+from comprope_system.parallel.executors import workers
+from comprope_system.parallel.sweep import Case, sweep, values
+from comprope_system.presets.paper_installations import TOWER, with_sheave
 from comprope_system.studies.swing import swing, swing_case
-from comprope_system.sweep import Case, sweep, values
 
 
 def cases(runs: int, distance: float) -> list[Case]:

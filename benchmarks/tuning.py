@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from comprope_system.tuning import page
-from comprope_system.tuning.job import Request, run
+from comprope_system.tuning import report
+from comprope_system.tuning.workflow import Request, run
 
 TRIPS = ("0:4", "0:8", "0:14", "0:22", "0:40", "0:100", "0:200", "200:170", "100:122", "150:60")
 
@@ -87,7 +87,7 @@ def robust(trips: list[Mapping[str, Any]]) -> list[str]:
 
 def tables(result: Mapping[str, Any]) -> list[str]:
     """All tables."""
-    trips, found = result["trips"], sorted(page.errors(result["trips"]))
+    trips, found = result["trips"], sorted(report.errors(result["trips"]))
     lines = [*swings(trips), "", *fronts(trips), "", *quiet(trips), "", *robust(trips), ""]
     middle = found[len(found) // 2]
     lines.append(f"full model over small rope, {len(found)} swings: {found[0]:+.2f}, {middle:+.2f}, {found[-1]:+.2f}")

@@ -6,18 +6,19 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
-from comprope.declare import Quantity, quantities
-from comprope.drive.engine import interface as drive_interface
+from comprope.drive.cosimulation import interface as drive_interface
 from comprope.drive.parameters import Drive
-from comprope.fmi.engine import ModelInterface
+from comprope.fmi.model_interface import ModelInterface
+from comprope.quantities import Quantity, quantities
 from comprope.rope.effects import INSTRUMENT, REGISTRY
-from comprope.rope.engine import interface as rope_interface
-from comprope.rope.modelfile import load
+from comprope.rope.model_file import load
 from comprope.rope.parameters import Sensor
-from comprope.rope.slots import COMPONENTS, DECLARED
-from comprope_system.columns import columns
-from comprope_system.identify.campaign import UNITS, CampaignFile, Channel, RunSpec
+from comprope.rope.runtime.parameter_vector import COMPONENTS, DECLARED
+from comprope.rope.simulator.cosimulation import interface as rope_interface
+from comprope_system.identification.data.campaign import CampaignFile, Channel, RunSpec
+from comprope_system.measurements.run_table import UNITS
 from comprope_system.presets import model_path
+from comprope_system.simulation.result_columns import columns
 
 PATH = Path(__file__).with_name("reference.md")
 TITLE = """# Reference

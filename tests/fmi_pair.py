@@ -21,8 +21,8 @@ from fmpy.fmi2 import (
 )
 
 from comprope.errors import CompropeError, InputError
-from comprope.fmi.engine import ModelInterface
-from comprope.fmi.run import Run
+from comprope.fmi.instance import Run
+from comprope.fmi.model_interface import ModelInterface
 
 
 class Oracle:

@@ -9,12 +9,12 @@ import pytest
 
 import comprope
 from comprope.errors import InputError
-from comprope.fmi.build import Origin
-from comprope.fmi.engine import ModelInterface
-from comprope.native import link
-from comprope.native.build import STANDARDS, build_native
-from comprope.rope.engine import interface
-from comprope.rope.modelfile import load
+from comprope.fmi.model_interface import ModelInterface
+from comprope.fmi.package import Origin
+from comprope.native import linker
+from comprope.native.package import STANDARDS, build_native
+from comprope.rope.model_file import load
+from comprope.rope.simulator.cosimulation import interface
 from comprope_system import presets
 
 ORIGIN = Origin("1.2.3", "MIT")
@@ -22,7 +22,7 @@ ORIGIN = Origin("1.2.3", "MIT")
 
 def _compiler_missing() -> bool:
     try:
-        link.toolchain()
+        linker.toolchain()
     except InputError:
         return True
     return False
@@ -42,12 +42,12 @@ def native_fmu(ending: str = "native") -> Path:
     """The FMU for FMI 2.0 or, ending in `native-fmi3`, for FMI 3.0; building both takes half a minute."""
     folder = Path(tempfile.gettempdir()) / "comprope-native" / _digest()
     if not (made := folder / f"CompensationRope-{ending}.fmu").is_file():
-        build_native(tower(), folder, ORIGIN, STANDARDS, [link.here()])
+        build_native(tower(), folder, ORIGIN, STANDARDS, [linker.here()])
     return made
 
 
 def _digest() -> str:
-    total = hashlib.sha256(link.toolchain().encode())
+    total = hashlib.sha256(linker.toolchain().encode())
     sources = Path(comprope.__file__).parent
     for file in sorted(path for path in sources.rglob("*") if path.suffix in (".py", ".c", ".h", ".html")):
         total.update(file.relative_to(sources).as_posix().encode() + b"\0" + file.read_bytes())

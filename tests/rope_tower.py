@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from comprope.drive.trajectory import Motion, Trip
-from comprope.rope.model import CompensationRope
-from comprope.rope.modelfile import RopeModel, validated, with_changes
+from comprope.drive.s_curve import Motion, Trip
+from comprope.rope.model_file import RopeModel, validated, with_changes
+from comprope.rope.simulator.rope import CompensationRope
 
 TOWER = validated(
     {

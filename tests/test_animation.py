@@ -10,10 +10,10 @@ import pandas as pd
 import pytest
 
 from comprope_system import cli
-from comprope_system.animation.camera import ARC, DOWN, MOST, POINTS, Camera, Frame, look
-from comprope_system.animation.film import Trace, film, packed, unpacked
+from comprope_system.prescribed_trip import record, trip_of
 from comprope_system.report.page import Animation, Section, save_page
-from comprope_system.ride import record, trip_of
+from comprope_system.simulation.animation.encoding import Trace, film, packed, unpacked
+from comprope_system.simulation.animation.frames import ARC, DOWN, MOST, POINTS, Camera, Frame, look
 
 from .virtual_lift import MODEL
 
@@ -92,7 +92,7 @@ def test_packing_loses_less_than_a_line_is_wide():
     ("step", "total", "interval"), [(0.01, 500, 0.05), (0.05, 100, 0.05), (0.1, 50, 0.1), (0.001, 600_000, 0.5)]
 )
 def test_a_camera_takes_20_frames_a_second_and_never_too_many(monkeypatch, step, total, interval):
-    monkeypatch.setattr("comprope_system.animation.camera.look", lambda rope: rope)
+    monkeypatch.setattr("comprope_system.simulation.animation.frames.look", lambda rope: rope)
     camera = Camera(lambda: "frame", step)
     for count in range(total + 1):
         camera(count, total)
@@ -104,7 +104,7 @@ def test_the_longest_page_stays_below_2_mb(tmp_path, monkeypatch):
     """As many frames as there can be, of noise, with the traces of eight sensors."""
     random = np.random.default_rng(1)
     frames = [Frame(random.random(2), random.random((2, POINTS)), random.random((2, ARC)), 0.0, 0.0) for _ in range(MOST + 1)]
-    monkeypatch.setattr("comprope_system.animation.film.at_rest", lambda model, frames: [one.sides for one in frames])
+    monkeypatch.setattr("comprope_system.simulation.animation.encoding.at_rest", lambda model, frames: [one.sides for one in frames])
     traces = [Trace(str(k), "mm", random.random(2400), random.random(2400)) for k in range(12)]
     moving = Animation("trip", film(MODEL, frames, 0.05, traces))
     save_page(tmp_path / "long.html", "long", "", [Section("a", "A", [moving])])

@@ -10,7 +10,8 @@ import pandas as pd
 import pytest
 
 from comprope.errors import SimulationError
-from comprope_system import cli, presets, trip_job
+from comprope_system import cli, presets
+from comprope_system.simulation import workflow
 
 # A coarse rope in a low shaft: seconds matter here, not millimetres.
 QUICK = [
@@ -65,7 +66,7 @@ def test_a_simulated_trip_can_be_driven_again(capsys, tmp_path):
 
 
 def test_a_campaign_beside_the_run_tells_units_and_changes(tmp_path):
-    from comprope_system.measured import read_run
+    from comprope_system.simulation.measured_run import read_run
 
     time = np.arange(0.0, 12.0, 0.02)
     way = np.clip((time - 2.0) / 6.0, 0.0, 1.0)
@@ -136,7 +137,7 @@ def test_what_fails_on_the_way_is_status_1_and_leaves_no_file(capsys, tmp_path, 
         def fail(*_, error=error):
             raise error
 
-        monkeypatch.setattr(trip_job, "simulate", fail)
+        monkeypatch.setattr(workflow, "simulate", fail)
         status, _, errors = run(capsys, "simulate", "tower50", *QUICK, "--out", tmp_path / "trip.csv")
         assert (status, errors) == (1, told)
         assert not list(tmp_path.iterdir())
@@ -149,7 +150,7 @@ def test_help_names_commands_and_presets(capsys):
 
 
 def test_every_preset_has_a_drive_file():
-    from comprope_system.lift import load_drive
+    from comprope_system.simulation.elevator import load_drive
 
     for name in presets.names():
         assert load_drive(presets.drive_path(name)).profile.speed > 0.0

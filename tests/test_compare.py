@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from comprope_system import cli
-from comprope_system.identify.campaign import load_campaign
-from comprope_system.identify.compare import compare
-from comprope_system.identify.jobs import threads
-from comprope_system.identify.measures import ORDERS, by_band, by_bins, by_order, sprague_geers
-from comprope_system.identify.phases import PHASES, phases
-from comprope_system.identify.remarks import remarks
+from comprope_system.identification.comparison.compare import compare
+from comprope_system.identification.comparison.data_quality import remarks
+from comprope_system.identification.comparison.error_metrics import ORDERS, by_band, by_bins, by_order, sprague_geers
+from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.data.trip_phases import PHASES, phases
+from comprope_system.parallel.executors import threads
 
 from . import virtual_lift
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from comprope.errors import InputError, SimulationError
-from comprope.fmi.engine import ModelInterface, Variable
+from comprope.fmi.model_interface import ModelInterface, Variable
 from comprope_system.cosim import Connection, co_simulate
-from comprope_system.cosim.direct import DirectParticipant
-from comprope_system.cosim.prescribed import PrescribedMotion
-from comprope_system.trips.profile import jerk_limited
-from comprope_system.trips.trip import Trip
+from comprope_system.cosim.in_process_participant import DirectParticipant
+from comprope_system.cosim.prescribed_motion import PrescribedMotion
+from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.trip import Trip
 
 
 class Clock:

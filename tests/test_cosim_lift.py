@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 from comprope.errors import InputError, SimulationError
-from comprope.rope.modelfile import load, with_changes
+from comprope.rope.model_file import load, with_changes
 from comprope_system import presets
-from comprope_system.cosim import fmus
-from comprope_system.cosim.fmu import FmuParticipant
-from comprope_system.lift import driven, load_drive
-from comprope_system.simulation import Timing, simulate
+from comprope_system.cosim import fmu_cache
+from comprope_system.cosim.fmu_participant import FmuParticipant
+from comprope_system.simulation.elevator import driven, load_drive
+from comprope_system.simulation.trip_simulation import Timing, simulate
 
 # A coarse rope on a short trip: what is tested is the coupling, not the rope.
 COARSE = {"rope.element_length": 0.2, "solver.step": 0.005, "shaft.height": 12.0}
@@ -69,23 +69,24 @@ def test_a_stale_fmu_in_dist_is_not_used(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "dist").mkdir()
     (tmp_path / "dist" / "ElevatorDrive.fmu").write_bytes(b"no FMU at all")
-    built = fmus.drive_fmu()
+    built = fmu_cache.drive_fmu()
     assert tmp_path / "cache" in built.parents
     (tmp_path / "dist" / "ElevatorDrive.fmu").write_bytes(built.read_bytes())
-    assert fmus.drive_fmu() == Path("dist/ElevatorDrive.fmu")
+    assert fmu_cache.drive_fmu() == Path("dist/ElevatorDrive.fmu")
 
 
 def test_what_an_fmu_refuses_is_told_in_its_words():
-    with FmuParticipant("motion", fmus.drive_fmu(), {"profile.speed": 99.0}) as drive, pytest.raises(InputError) as caught:
+    with FmuParticipant("motion", fmu_cache.drive_fmu(), {"profile.speed": 99.0}) as drive, pytest.raises(InputError) as caught:
         drive.prepare(0.0)
         drive.begin()
     assert "profile.speed = 99 m/s: 0.01 to 25 m/s is accepted" in str(caught.value)
-    with FmuParticipant("motion", fmus.drive_fmu(), {"profile.sped": 1.0}) as drive, pytest.raises(InputError, match="sped is"):
+    fmu = fmu_cache.drive_fmu()
+    with FmuParticipant("motion", fmu, {"profile.sped": 1.0}) as drive, pytest.raises(InputError, match="sped is"):
         drive.prepare(0.0)
 
 
 def test_a_failing_step_is_told_in_the_fmus_words():
-    with FmuParticipant("motion", fmus.drive_fmu(), {}) as drive:
+    with FmuParticipant("motion", fmu_cache.drive_fmu(), {}) as drive:
         drive.prepare(0.0)
         drive.begin()
         drive.step(0.0, 0.01)

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from comprope.drive.course import Course, first_course
-from comprope.drive.engine import create, interface
+from comprope.drive.cosimulation import create, interface
+from comprope.drive.input_shaper import impulses, period_at
 from comprope.drive.parameters import PARTS, Curve, Drive, FirstTrip, Profile, Shaper
-from comprope.drive.shaper import impulses, period_at
+from comprope.drive.reference_trajectory import Course, first_course
 from comprope.errors import InputError
 
 WAVE = [math.sin(2.0 * math.pi * k / PARTS) for k in range(1, PARTS)]

@@ -8,15 +8,15 @@ import control
 import numpy as np
 import pytest
 
-from comprope.drive.cells import cells
-from comprope.drive.engine import create, drive_of, interface
-from comprope.drive.hoist import INPUTS, state_space
+from comprope.drive.cosimulation import create, drive_of, interface
+from comprope.drive.hoist_dynamics import INPUTS, state_space
 from comprope.drive.parameters import Drive, FirstTrip, Servo
-from comprope.drive.servo import design, sampled_speed_control
-from comprope.drive.stepping import DriveEngine
-from comprope.drive.trajectory import plan
+from comprope.drive.s_curve import plan
+from comprope.drive.scheduled_plant import cells
+from comprope.drive.servo_control import design, sampled_speed_control
+from comprope.drive.simulator import DriveEngine
 from comprope.errors import InputError, SimulationError
-from comprope.fmi.check import interface_problems
+from comprope.fmi.validation import interface_problems
 
 STILL = {"destination": 50.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0}
 ROPES = {"destination": 50.0, "car_end_tension": 1250.0, "counterweight_end_tension": 660.0}

@@ -4,12 +4,12 @@ import control
 import numpy as np
 import pytest
 
-from comprope.drive.cells import cells
-from comprope.drive.hoist import T_C, T_W, V_C, V_S, X_C, X_W, S, holding_force, lumps, moving_mass, state_space
+from comprope.drive.hoist_dynamics import T_C, T_W, V_C, V_S, X_C, X_W, S, holding_force, lumps, moving_mass, state_space
 from comprope.drive.parameters import Drive, Plant, Servo, Shaft
-from comprope.drive.servo import continuous_speed_control, design, sampled_speed_control
-from comprope.drive.stability import margins, open_loop, unstable_positions
-from comprope.drive.trajectory import Motion
+from comprope.drive.s_curve import Motion
+from comprope.drive.scheduled_plant import cells
+from comprope.drive.servo_control import continuous_speed_control, design, sampled_speed_control
+from comprope.drive.stability_margins import margins, open_loop, unstable_positions
 
 DRIVE = Drive()
 POSITIONS = [0.0, 10.0, 25.0, 50.0]

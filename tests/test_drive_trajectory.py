@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from comprope.drive.parameters import Profile
-from comprope.drive.trajectory import Motion, Trip, plan
+from comprope.drive.s_curve import Motion, Trip, plan
 
 TOWER = Profile(speed=2.5, acceleration=0.8, jerk=0.8)
 PAPER_FIG_7 = Profile(speed=9.0, acceleration=1.1, jerk=0.93)

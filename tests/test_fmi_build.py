@@ -10,9 +10,9 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
-from comprope.fmi.reference import DURATION, EVERY, IN, OUT, reference
-from comprope.rope.engine import interface
-from comprope.rope.modelfile import load, with_changes
+from comprope.fmi.reference_result import DURATION, EVERY, IN, OUT, reference
+from comprope.rope.model_file import load, with_changes
+from comprope.rope.simulator.cosimulation import interface
 from comprope_system import presets
 
 ROOT = Path(__file__).parent.parent

@@ -11,7 +11,7 @@ from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
 import comprope
-from comprope.fmi.build import Origin, build
+from comprope.fmi.package import Origin, build
 
 TOYS = Path(__file__).parent / "fmi_toys"
 comprope.__path__.append(str(TOYS))

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import pytest
 
-from comprope.drive.engine import interface as drive_interface
-from comprope.fmi.engine import ModelInterface
-from comprope.fmi.page import page
-from comprope.rope.engine import interface as rope_interface
-from comprope.rope.modelfile import load
+from comprope.drive.cosimulation import interface as drive_interface
+from comprope.fmi.documentation import page
+from comprope.fmi.model_interface import ModelInterface
+from comprope.rope.model_file import load
+from comprope.rope.simulator.cosimulation import interface as rope_interface
 from comprope_system import presets
 
 ROPE, DRIVE = rope_interface(load(presets.model_path("tower50"))), drive_interface()

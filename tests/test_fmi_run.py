@@ -11,17 +11,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import comprope
-from comprope.declare import Component, quantity
 from comprope.errors import InputError, SimulationError
-from comprope.fmi import failure
-from comprope.fmi.build import Origin, build
-from comprope.fmi.check import step_problem
-from comprope.fmi.description import completed
-from comprope.fmi.engine import ModelInterface, Variable, parameters_of
-from comprope.fmi.face import slave_class
-from comprope.fmi.run import Run
-from comprope.fmi.runstate import RunState, pack, unpack
+from comprope.fmi import error_reporting
+from comprope.fmi.instance import Run, RunState, pack, unpack
+from comprope.fmi.model_description import completed
+from comprope.fmi.model_interface import ModelInterface, Variable, parameters_of
+from comprope.fmi.package import Origin, build
+from comprope.fmi.pythonfmu_slave import slave_class
 from comprope.fmi.units import SYMBOLS, display_factor, exponents
+from comprope.fmi.validation import step_problem
+from comprope.quantities import Component, quantity
 
 comprope.__path__.append(str(Path(__file__).parent / "fmi_toys"))
 from comprope.spring.engine import interface  # noqa: E402
@@ -242,11 +241,11 @@ def test_internal_errors_are_one_line_with_their_place() -> None:
     try:
         raise KeyError("two\nlines")
     except KeyError as error:
-        text = failure.sentence(error)
+        text = error_reporting.sentence(error)
     assert text.startswith("internal error: KeyError in test_internal_errors_are_one_line_with_their_place, test_fmi_run.py:")
     assert "\n" not in text
 
 
 def test_a_host_without_standard_error_is_spared(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stderr", None)
-    failure.report("unheard")
+    error_reporting.report("unheard")

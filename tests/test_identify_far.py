@@ -4,18 +4,19 @@ import numpy as np
 import pytest
 
 from comprope.rope.effects import REGISTRY
-from comprope_system.identify.add import prepare
-from comprope_system.identify.campaign import load_campaign
-from comprope_system.identify.diagnose import diagnose
-from comprope_system.identify.elsewhere import seen_from_elsewhere
-from comprope_system.identify.fit import evaluate
-from comprope_system.identify.hypotheses import NUISANCES, of_effect, of_instruments, together
-from comprope_system.identify.in_step import brought_into_step
-from comprope_system.identify.jobs import threads
-from comprope_system.identify.linear import stepped
-from comprope_system.identify.point import Point
-from comprope_system.identify.present import shape_of
-from comprope_system.identify.values import plant_results
+from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.diagnosis.diagnose import diagnose
+from comprope_system.identification.diagnosis.linear_screening import seen_from_elsewhere
+from comprope_system.identification.estimation.gauss_newton import evaluate
+from comprope_system.identification.estimation.linearisation import stepped
+from comprope_system.identification.estimation.mass_search import brought_into_step
+from comprope_system.identification.estimation.parameter_estimates import plant_results
+from comprope_system.identification.hypotheses.effect_hypotheses import of_effect, of_instruments, together
+from comprope_system.identification.hypotheses.model_effects import shape_of
+from comprope_system.identification.hypotheses.plant_parameters import NUISANCES
+from comprope_system.identification.model_updating.add_effect import prepare
+from comprope_system.identification.prediction.parameter_point import Point
+from comprope_system.parallel.executors import threads
 
 from . import virtual_lift
 

@@ -5,12 +5,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from comprope_system.identify.campaign import Channel, load_campaign
-from comprope_system.identify.diagnose import diagnose
-from comprope_system.identify.jobs import threads
-from comprope_system.identify.results import far_off, judge
-from comprope_system.identify.samples import sample_noise
-from comprope_system.identify.scores import strain
+from comprope_system.identification.data.campaign import Channel, load_campaign
+from comprope_system.identification.data.whitening import sample_noise
+from comprope_system.identification.diagnosis.diagnose import diagnose
+from comprope_system.identification.diagnosis.held_out_validation import far_off, judge
+from comprope_system.identification.estimation.model_score import strain
+from comprope_system.parallel.executors import threads
 
 from . import virtual_lift
 

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from comprope.rope.modelfile import with_changes
-from comprope_system.identify.add import add, prepare
-from comprope_system.identify.campaign import load_campaign
-from comprope_system.identify.compare import compare
-from comprope_system.identify.diagnose import diagnose
-from comprope_system.identify.errors_of import channel_error
-from comprope_system.identify.hypotheses import CLOCK, NUISANCES
-from comprope_system.identify.jobs import threads
-from comprope_system.identify.replay import instrument
-from comprope_system.identify.values import plant_results
+from comprope.rope.model_file import with_changes
+from comprope_system.identification.comparison.compare import compare
+from comprope_system.identification.comparison.nrmse import channel_error
+from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.diagnosis.diagnose import diagnose
+from comprope_system.identification.estimation.parameter_estimates import plant_results
+from comprope_system.identification.hypotheses.plant_parameters import CLOCK, NUISANCES
+from comprope_system.identification.model_updating.add_effect import add, prepare
+from comprope_system.identification.prediction.replay import instrument
+from comprope_system.parallel.executors import threads
 
 from . import virtual_lift
 

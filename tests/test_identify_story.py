@@ -12,21 +12,22 @@ import numpy as np
 import pytest
 
 from comprope.rope.effects import REGISTRY
-from comprope.rope.modelfile import load
+from comprope.rope.model_file import load
 from comprope_system import cli
-from comprope_system.identify import journey as steps
-from comprope_system.identify.add import beside_the_model, heading, prepare
-from comprope_system.identify.campaign import load_campaign
-from comprope_system.identify.clues import clues
-from comprope_system.identify.compare import compare
-from comprope_system.identify.diagnose import diagnose
-from comprope_system.identify.hypotheses import NUISANCES, of_effect, together
-from comprope_system.identify.jobs import threads
-from comprope_system.identify.journey import journey
-from comprope_system.identify.measures import ORDERS
-from comprope_system.identify.next_run import candidates, rivals
-from comprope_system.identify.present import shapes_of
-from comprope_system.identify.results import judge, to_json
+from comprope_system.identification.comparison.compare import compare
+from comprope_system.identification.comparison.error_metrics import ORDERS
+from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.diagnosis.diagnose import diagnose
+from comprope_system.identification.diagnosis.experiment_design import candidates, rivals
+from comprope_system.identification.diagnosis.held_out_validation import judge, to_json
+from comprope_system.identification.hypotheses.effect_hypotheses import of_effect, together
+from comprope_system.identification.hypotheses.model_effects import shapes_of
+from comprope_system.identification.hypotheses.plant_parameters import NUISANCES
+from comprope_system.identification.model_updating import stepwise_selection as steps
+from comprope_system.identification.model_updating.add_effect import beside_the_model, heading, prepare
+from comprope_system.identification.model_updating.stepwise_selection import journey
+from comprope_system.identification.residuals.residual_correlation import clues
+from comprope_system.parallel.executors import threads
 
 from . import virtual_lift
 
@@ -146,7 +147,7 @@ def test_values_come_with_their_uncertainty(better):
 
 def test_the_new_model_file_stands_for_itself(better, executor, tmp_path):
     """Read back, it gives the same errors with the campaign's clock, and its first lines say where its numbers come from."""
-    from comprope.rope.modelfile import dump
+    from comprope.rope.model_file import dump
 
     dump(better.model, tmp_path / "new.toml", heading(better))
     text = (tmp_path / "new.toml").read_text()

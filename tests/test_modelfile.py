@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from comprope.declare import quantities
 from comprope.errors import InputError
-from comprope.rope.modelfile import dump, load, with_changes
+from comprope.quantities import quantities
+from comprope.rope.model_file import dump, load, with_changes
 from comprope.rope.parameters import Base, Contact, Rope, Shaft, Sheave
 from comprope_system import presets
 

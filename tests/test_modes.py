@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from comprope.errors import InputError
-from comprope.rope import work
-from comprope.rope.model import CompensationRope
-from comprope_system.hanging import HangingString, mass_for_period, side_string
-from comprope_system.linear import STICK, _interpreted, linearise
-from comprope_system.modes import Modes, modes
-from comprope_system.studies.buildings import BUILDING, TOWER, building, with_sheave
+from comprope.rope.runtime import array_layout
+from comprope.rope.simulator.rope import CompensationRope
+from comprope_system.modal.hanging_string import HangingString, mass_for_period, side_string
+from comprope_system.modal.linearisation import STICK, _interpreted, linearise
+from comprope_system.modal.modes import Modes, modes
+from comprope_system.presets.paper_installations import BUILDING, TOWER, building, with_sheave
 
 CAR = 22.0
 
@@ -95,7 +95,7 @@ def forces(rope: CompensationRope, moved: np.ndarray) -> np.ndarray:
     """Forces on all unknowns of a rope moved from where it is."""
     m, p = rope.n + 1, np.asarray(rope.p)
     f, zeros = np.zeros(2 * m), np.zeros(40 * m)
-    touch, w, blocks = np.zeros(work.TOUCH), np.zeros(work.SECTIONS * m), np.zeros(1)
+    touch, w, blocks = np.zeros(array_layout.TOUCH), np.zeros(array_layout.SECTIONS * m), np.zeros(1)
     q = np.asarray(rope.state.q) + moved.ravel()
     _interpreted()["forces"](rope.n, 0.0, p, q, zeros, w, f, touch, zeros, zeros, zeros, blocks, 0.0, 0.0, False)
     return f
@@ -129,7 +129,7 @@ def test_stick_is_between_the_frictions_grip_and_ill_condition() -> None:
 
 
 def test_a_car_outside_the_shaft_is_refused() -> None:
-    from comprope_system.modes_job import Request, run
+    from comprope_system.modal.workflow import Request, run
 
     with pytest.raises(InputError, match=r"--car 60: 0 to shaft.height = 50 m is accepted"):
         run(Request("tower50", 60.0, 3))

@@ -21,15 +21,15 @@ from fmpy.validation import validate_fmu
 
 import comprope
 from comprope.errors import CompropeError, InputError
-from comprope.fmi.description import completed
-from comprope.fmi.face import slave_class
-from comprope.fmi.reference import IN, OUT
-from comprope.native import link
-from comprope.native.fmi2 import universal
-from comprope.native.ir import require_no_python
-from comprope.native.machine import TARGETS
-from comprope.native.tables import quoted
-from comprope.rope.words import WORDS, require_fine
+from comprope.fmi.model_description import completed
+from comprope.fmi.pythonfmu_slave import slave_class
+from comprope.fmi.reference_result import IN, OUT
+from comprope.native import linker
+from comprope.native.c_source import quoted
+from comprope.native.fmi2_package import universal
+from comprope.native.llvm_ir import require_no_python
+from comprope.native.targets import TARGETS
+from comprope.rope.runtime.status import WORDS, require_fine
 from comprope_system import presets
 
 from .fmi_pair import Pair
@@ -99,7 +99,7 @@ def test_needs_nothing_but_the_c_library(fmu: Path, tmp_path: Path) -> None:
 
 def unpacked(fmu: Path, folder: Path) -> Path:
     """The binary for this system."""
-    target = TARGETS[link.here()]
+    target = TARGETS[linker.here()]
     with zipfile.ZipFile(fmu) as archive:
         return Path(archive.extract(f"binaries/{target.folder}/CompensationRope.{target.extension}", folder))
 
@@ -371,17 +371,18 @@ def test_a_kernel_that_needs_python_is_refused() -> None:
 
 
 def test_without_a_compiler_the_cure_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(link, "_zig", lambda: False)
+    monkeypatch.setattr(linker, "_zig", lambda: False)
     monkeypatch.setattr(shutil, "which", lambda name: None)
     with pytest.raises(InputError, match="no C compiler: `pip install ziglang`"):
-        link.toolchain()
+        linker.toolchain()
 
 
 def test_without_zig_only_this_system_is_compiled_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(link, "_zig", lambda: False)
+    monkeypatch.setattr(linker, "_zig", lambda: False)
     monkeypatch.setattr(shutil, "which", lambda name: name)
-    assert link.linkable() == [link.here()]
-    assert link.toolchain().startswith("cc, for this system only; `pip install ziglang` brings a compiler for Linux, Windows and")
+    assert linker.linkable() == [linker.here()]
+    expected = "cc, for this system only; `pip install ziglang` brings a compiler for Linux, Windows and"
+    assert linker.toolchain().startswith(expected)
 
 
 def test_one_file_for_several_processors() -> None:

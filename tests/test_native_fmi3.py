@@ -20,7 +20,7 @@ from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from comprope.fmi.reference import IN, OUT
+from comprope.fmi.reference_result import IN, OUT
 
 from .fmi3_pair import Pair3, Slave
 from .fmi_pair import SMALL, random_call

@@ -9,9 +9,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, precondition, rule, run_state_machine_as_test
 
-from comprope.fmi.build import build
-from comprope.rope.engine import ENTRY
-from comprope.rope.modelfile import bundle, load
+from comprope.fmi.package import build
+from comprope.rope.model_file import bundle, load
+from comprope.rope.simulator.cosimulation import ENTRY
 from comprope_system import presets
 
 from .fmi_pair import ODD, SMALL, STEPS, Pair, random_call

@@ -17,22 +17,22 @@ from fmpy import read_model_description
 
 from comprope import consent
 from comprope.drive.parameters import Profile
-from comprope.drive.trajectory import plan
+from comprope.drive.s_curve import plan
 from comprope.errors import InputError, SimulationError
-from comprope.rope.effects import REGISTRY, names_of, own
-from comprope.rope.effects.sound import require_sound
-from comprope.rope.engine import interface
-from comprope.rope.model import CompensationRope, values_of
-from comprope.rope.modelfile import dump, load, with_changes
-from comprope.rope.slots import DECLARED
+from comprope.rope.effects import REGISTRY, names_of, user_effects
+from comprope.rope.effects.kernel_checks import require_sound
+from comprope.rope.model_file import dump, load, with_changes
+from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.simulator.cosimulation import interface
+from comprope.rope.simulator.rope import CompensationRope, values_of
 from comprope_system import cli
-from comprope_system.cosim import fmus
-from comprope_system.identify.add import add
-from comprope_system.identify.campaign import load_campaign
-from comprope_system.identify.diagnose import diagnose
-from comprope_system.identify.jobs import threads
-from comprope_system.lift import driven, load_drive
-from comprope_system.simulation import Timing, simulate
+from comprope_system.cosim import fmu_cache
+from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.diagnosis.diagnose import diagnose
+from comprope_system.identification.model_updating.add_effect import add
+from comprope_system.parallel.executors import threads
+from comprope_system.simulation.elevator import driven, load_drive
+from comprope_system.simulation.trip_simulation import Timing, simulate
 
 from . import virtual_lift
 from .rope_tower import TOWER, ride
@@ -48,7 +48,7 @@ BUILT_IN = tuple(REGISTRY)
 BRUSH_SOURCE, JOINTS_SOURCE = ((EXAMPLES / f"{name}.py").read_text() for name in ("pit_brush", "rail_joints"))
 
 
-TABLES = (REGISTRY, DECLARED, own.FILES)
+TABLES = (REGISTRY, DECLARED, user_effects.FILES)
 NOTHING = [dict(one) for one in TABLES]  # of a user's own
 
 
@@ -212,7 +212,7 @@ def test_the_fmu_gives_the_same_numbers_and_has_the_effect_inside(examples):
         with driven(model, load_drive(None, trip), direct) as lift:
             tables.append(simulate(lift, ["low"], Timing(2.0, 0.02, "one-way")).table)
     assert tables[0].equals(tables[1])
-    fmu = fmus.rope_fmu(1, model.own_effects)
+    fmu = fmu_cache.rope_fmu(1, model.own_effects)
     with zipfile.ZipFile(fmu) as archive:
         assert any(name.endswith("own_effects/1_rail_joints.py") for name in archive.namelist())
         assert "comprope" not in re.search(r"pip install [^<]*", archive.read("documentation/index.html").decode())[0]
@@ -267,8 +267,8 @@ def test_what_only_the_user_knows_is_found_and_added(examples, tmp_path, monkeyp
 
 
 def own_names(file: Path) -> tuple[str, ...]:
-    own.read(file, allow_code=True)
-    return own.FILES[str(file)].effects
+    user_effects.read(file, allow_code=True)
+    return user_effects.FILES[str(file)].effects
 
 
 def refusal(file: Path, source: str) -> str:
@@ -284,7 +284,7 @@ def refusal(file: Path, source: str) -> str:
 WRONG = {
     "syntax": ("p, q, v, w, f):", "p, q, v, w, f)", ", line 21: not Python: expected ':'"),
     "absent import": ('"""A', 'import nosuchthing\n"""A', ", line 1: No module named 'nosuchthing'"),
-    "imports inside": ("comprope.effect", "comprope.rope.jit", ", line 3: imports comprope.rope.jit; of comprope, only"),
+    "imports inside": ("comprope.effect", "comprope.rope", ", line 3: imports comprope.rope; of comprope, only"),
     "unknown name": ("Effect, acts", "Effect, act", ", line 3: cannot import name 'act' from 'comprope.effect'"),
     "error": ('"""A', '1 / 0\n"""A', ", line 1: ZeroDivisionError: division by zero"),
     "leaves": ('"""A', 'raise SystemExit("gone")\n"""A', ", line 1: SystemExit: gone"),

@@ -8,18 +8,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from comprope.rope.modelfile import load
-from comprope_system.identify.campaign import load_campaign
-from comprope_system.identify.replay import replay
+from comprope.rope.model_file import load
+from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.prediction.replay import replay
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 import plant_check
 import score_campaigns
 from plant import campaign as plants
-from plant import texts
+from plant import campaign_files
 from plant.causes import CAUSES
-from plant.ride import course, ride
+from plant.simulate import course, ride
 from plant.sites import SITES, TOWER50, Run
 from plant.tower import Tower
 from plant.trip import trip
@@ -120,7 +120,7 @@ def test_the_same_seed_gives_the_same_campaign():
 
 @pytest.mark.parametrize("site", SITES.values(), ids=SITES)
 def test_a_site_can_be_measured(site, tmp_path):
-    texts.describe(tmp_path, site, 1, 1.0)
+    campaign_files.describe(tmp_path, site, 1, 1.0)
     model = load(tmp_path / f"{site.name}.toml")
     assert (model.shaft.height, model.sheave.mass) == (site.tower.height, site.tower.sheave_mass)
     assert {sensor.name: sensor.height for sensor in model.sensors} == {name: high for name, (_, high) in site.sensors.items()}

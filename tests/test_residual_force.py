@@ -10,19 +10,20 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from comprope.rope.effects import REGISTRY, own
-from comprope.rope.modelfile import with_changes
-from comprope_system.identify import figures, replay, texts
-from comprope_system.identify.campaign import Channel, load_campaign
-from comprope_system.identify.fit import refine
-from comprope_system.identify.hypotheses import NUISANCES
-from comprope_system.identify.jobs import threads
-from comprope_system.identify.plain import plain
-from comprope_system.identify.point import Point, gathered, submit
-from comprope_system.identify.problem import pose
-from comprope_system.identify.residual_force import residual_force
-from comprope_system.identify.residual_force_places import KEY, PROBE, probed
-from comprope_system.identify.residual_force_solve import estimate, prior_root
+from comprope.rope.effects import REGISTRY, user_effects
+from comprope.rope.model_file import with_changes
+from comprope_system.identification.data.campaign import Channel, load_campaign
+from comprope_system.identification.estimation.gauss_newton import refine
+from comprope_system.identification.estimation.weighted_least_squares import pose
+from comprope_system.identification.hypotheses.plant_parameters import NUISANCES
+from comprope_system.identification.prediction import replay
+from comprope_system.identification.prediction.parameter_point import Point, gathered, submit
+from comprope_system.identification.reporting import figures, tables
+from comprope_system.identification.residuals.force_locations import KEY, PROBE, probed
+from comprope_system.identification.residuals.input_estimation import residual_force
+from comprope_system.identification.residuals.regularised_deconvolution import estimate, prior_root
+from comprope_system.parallel.executors import threads
+from comprope_system.report.json_output import plain
 
 from . import virtual_lift
 
@@ -89,7 +90,7 @@ def lag(paths, run, grid):
 def twisted(model, run, channels, step):
     """A replay with a pulse of torque on the sheave."""
     pulse = {KEY + "sheave_torque": TORQUE, KEY + "time": WHEN, KEY + "width": WIDTH}
-    with own.lent(str(PROBE), PROBE.read_text(encoding="utf-8")):
+    with user_effects.lent(str(PROBE), PROBE.read_text(encoding="utf-8")):
         return replay.replay(with_changes(probed(model), pulse), run, channels, step)
 
 
@@ -148,7 +149,7 @@ def test_what_it_follows_is_told(pushed, lagging):
         told = json.loads(json.dumps(plain(force.to_json()), allow_nan=False))
         assert [one["share"] for one in told] == sorted((one["share"] for one in told), reverse=True)
         assert told[0]["locked_to"] and {"place", "share", "size", "unit", "courses"} <= set(told[0])
-        assert len(texts.force_table(force).rows) == len(told)
+        assert len(tables.force_table(force).rows) == len(told)
         assert figures.force_bars(force).axes and len(figures.force_courses(campaign, force).axes) == 4
 
 

@@ -10,11 +10,11 @@ from scipy.optimize import brentq, least_squares
 from scipy.special import j0, y0
 
 from comprope.drive.parameters import Profile
-from comprope.drive.trajectory import Motion, plan
+from comprope.drive.s_curve import Motion, plan
 from comprope.errors import SimulationError
-from comprope.rope.engine import create, interface
-from comprope.rope.model import CompensationRope
 from comprope.rope.parameters import Sensor
+from comprope.rope.simulator.cosimulation import create, interface
+from comprope.rope.simulator.rope import CompensationRope
 
 from .rope_tower import TOWER, ride, rope, way
 

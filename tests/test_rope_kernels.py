@@ -9,20 +9,21 @@ from functools import cache
 import numpy as np
 import pytest
 
-from comprope.declare import quantities
 from comprope.drive.parameters import Profile
-from comprope.drive.trajectory import plan
-from comprope.rope import band, dynamics, ends, sensors, zone
-from comprope.rope.bound import Bound
-from comprope.rope.compose import compiled
-from comprope.rope.contact import contact_radius, friction_law, normal_law
+from comprope.drive.s_curve import plan
+from comprope.quantities import quantities
+from comprope.rope.compiler.entry_points import compiled
+from comprope.rope.compiler.workspace import Bound
 from comprope.rope.effects import REGISTRY
-from comprope.rope.effects.trial import Trial
-from comprope.rope.elastica import angle
-from comprope.rope.ledger import LOSSES, SPENT
-from comprope.rope.motion import EndMotion, parabola
-from comprope.rope.slots import DECLARED, slot
-from comprope.rope.work import BAND, COLUMNS, CONTACT, FIRST, FRICTION_LOSS, LAST, ROWS, TENSION
+from comprope.rope.effects.trial_state import Trial
+from comprope.rope.linalg import block_band, bordered_band
+from comprope.rope.mechanics import end_conditions, equations_of_motion, sensors
+from comprope.rope.mechanics.energy import LOSSES, SPENT
+from comprope.rope.mechanics.internal_forces import angle
+from comprope.rope.mechanics.sheave_contact import contact_radius, friction_law, normal_law
+from comprope.rope.runtime.array_layout import BAND, COLUMNS, CONTACT, FIRST, FRICTION_LOSS, LAST, ROWS, TENSION
+from comprope.rope.runtime.parameter_vector import DECLARED, slot
+from comprope.rope.simulator.end_motion import EndMotion, parabola
 
 from .rope_tower import STUB, TOWER, ride, rope
 
@@ -174,21 +175,21 @@ def test_elimination_from_both_ends_equals_a_dense_solve(n: int, first: int, las
     m, random = n + 1, np.random.default_rng(n)
     a, z = random.normal(size=(BAND, m)), np.zeros((CONTACT, m))
     a[[0, 2]] += 12.0  # safely positive definite, as elimination without pivots wants it
-    dynamics.hold_ends(n, a.reshape(-1))
+    equations_of_motion.hold_ends(n, a.reshape(-1))
     z[:, first : last + 1] = random.normal(size=(CONTACT, last - first + 1))
     for i, side in ((first, -2), (first, -1), (first + 1, -2), (last, 2), (last, 1), (last - 1, 2)):
         z[4 * (side + 2) : 4 * (side + 3), i] = 0.0  # what touches the groove lies within the zone
     contact = np.append(z.ravel(), random.normal(size=4))
     matrix, right = dense(n, a.reshape(-1), contact), random.normal(size=(2, 2 * m))
-    factored, work, size = a.reshape(-1).copy(), np.zeros(band.FACTOR * m), 2 * (last - first + 1)
-    bordered, found = np.zeros((zone.ROW + 2) * 2 * m + 4), right.copy()
-    band.factor(n, factored, work, found[0], first, last)
-    zone.fill(n, factored, contact, bordered, first, last)
-    zone.factor_zone(size, bordered)
-    band.inwards(n, work, found[1], first, last)
+    factored, work, size = a.reshape(-1).copy(), np.zeros(block_band.FACTOR * m), 2 * (last - first + 1)
+    bordered, found = np.zeros((bordered_band.ROW + 2) * 2 * m + 4), right.copy()
+    block_band.factor(n, factored, work, found[0], first, last)
+    bordered_band.fill(n, factored, contact, bordered, first, last)
+    bordered_band.factor_zone(size, bordered)
+    block_band.inwards(n, work, found[1], first, last)
     for one in found:
-        zone.solve_zone(n, bordered, one, first, last)
-        band.outwards(n, work, one, first, last)
+        bordered_band.solve_zone(n, bordered, one, first, last)
+        block_band.outwards(n, work, one, first, last)
     # Rounding grows by the condition of the matrix, below 1e4 here.
     assert found == pytest.approx(np.linalg.solve(matrix, right.T).T, rel=1e-10, abs=1e-11)
 
@@ -227,7 +228,7 @@ def test_ends_follow_a_motion_of_fifth_order_exactly() -> None:
     path = np.array([way.deriv(k)(at) if k else way(at) for at in (0.0, dt) for k in range(3)])
     for s in np.linspace(0.0, 1.0, 11).tolist():
         expected = [way(s * dt), way.deriv(1)(s * dt), way.deriv(2)(s * dt)]
-        assert ends.follow(path, 0, dt, s) == pytest.approx(expected, rel=1e-12, abs=1e-12)
+        assert end_conditions.follow(path, 0, dt, s) == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
 def test_parabola_through_uneven_samples() -> None:
@@ -330,17 +331,17 @@ def test_effect_at_its_neutral_value_changes_nothing(effect: str) -> None:
     plain, n = {name: array.copy() for name, array in do.standing.items()}, do.scalars["n"]
     a = np.zeros_like(plain["A"])
     with_effect = forces(do, 0.9, 0.1, True)
-    dynamics.forces(
+    equations_of_motion.forces(
         n, TIME, plain["p"], plain["q"], plain["v"], plain["w"], plain["f"], plain["touch"],
         plain["h0"], plain["h1"], plain["power"], plain["Z"], 0.9, 0.1, True,
     )  # fmt: skip
     assert np.array_equal(with_effect, plain["f"])
     assert np.array_equal(do.standing["Z"], plain["Z"])
-    dynamics.tangent_band(n, TIME, plain["p"], plain["q"], plain["v"], plain["w"], a, 1.0, 0.9, 0.1)
+    equations_of_motion.tangent_band(n, TIME, plain["p"], plain["q"], plain["v"], plain["w"], a, 1.0, 0.9, 0.1)
     assert np.array_equal(band_of(do, 0.9, 0.1, mass=1.0), a)
     do.path[:] = np.random.default_rng(1).normal(size=do.path.size)
     do.place(t=TIME, dt=0.1, s=0.4)
-    ends.place_ends(n, TIME, plain["p"], do.path, 0.1, 0.4, plain["q"], plain["v"], plain["a"])
+    end_conditions.place_ends(n, TIME, plain["p"], do.path, 0.1, 0.4, plain["q"], plain["v"], plain["a"])
     assert all(np.array_equal(getattr(do.state, name), plain[name]) for name in "qva")
 
 

@@ -8,17 +8,17 @@ from math import pi
 import numpy as np
 import pytest
 
-from comprope.drive.trajectory import Motion
+from comprope.drive.s_curve import Motion
 from comprope.errors import InputError
-from comprope.rope.model import CompensationRope, values_of
-from comprope.rope.modelfile import with_changes
-from comprope.rope.sensitivity import SensitiveRope
-from comprope.rope.slots import DECLARED
-from comprope_system.identify.campaign import Channel, Run
-from comprope_system.identify.replay import replay
-from comprope_system.identify.sensitivities import replay_with_sensitivities
-from comprope_system.trips import Trip
-from comprope_system.trips.profile import jerk_limited
+from comprope.rope.model_file import with_changes
+from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.simulator.rope import CompensationRope, values_of
+from comprope.rope.simulator.sensitive_rope import SensitiveRope
+from comprope_system.identification.data.campaign import Channel, Run
+from comprope_system.identification.prediction.replay import replay
+from comprope_system.identification.prediction.replay_sensitivities import replay_with_sensitivities
+from comprope_system.measurements import Trip
+from comprope_system.measurements.jerk_limited_profile import jerk_limited
 
 from .rope_tower import TOWER, way
 from .virtual_lift import LASER

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from comprope.errors import InputError
-from comprope.rope.model import CompensationRope
+from comprope.rope.simulator.rope import CompensationRope
+from comprope_system.prescribed_trip import record, side_shape, trip_of
+from comprope_system.presets.paper_installations import BUILDING, TOWER, building, table, up, with_sheave
 from comprope_system.report.page import Picture, Section, Table, save_page, save_pictures
-from comprope_system.ride import record, side_shape, trip_of
-from comprope_system.studies import fig4, fig5, fig6, fig7, fig8, job
-from comprope_system.studies.buildings import BUILDING, TOWER, building, table, up, with_sheave
+from comprope_system.report.plot_style import panels
+from comprope_system.studies import fig4, fig5, fig6, fig7, fig8, workflow
 from comprope_system.studies.design import least_mass
-from comprope_system.studies.draw import panels
 from comprope_system.studies.peaks import oscillator_peak, peak
 from comprope_system.studies.study import Ask
 from comprope_system.studies.swing import MEASURES, swing, swing_case
@@ -105,7 +105,7 @@ def test_design_least_mass_keeps_the_limit() -> None:
 
 
 def test_the_page_shows_stated_and_obtained(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    job.run(job.Request(["fig7"], tmp_path, jobs=1))
+    workflow.run(workflow.Request(["fig7"], tmp_path, jobs=1))
     page = (tmp_path / "studies.html").read_text(encoding="utf-8")
     assert "10.2 s" in page
     assert "data:image/png;base64," in page
@@ -116,7 +116,7 @@ def test_the_page_shows_stated_and_obtained(tmp_path: Path, capsys: pytest.Captu
 
 def test_an_unknown_study_is_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="fig9: not a study"):
-        job.run(job.Request(["fig9"], tmp_path))
+        workflow.run(workflow.Request(["fig9"], tmp_path))
 
 
 def test_pages_escape_texts(tmp_path: Path) -> None:

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from comprope.errors import InputError, SimulationError
-from comprope_system.executors import workers
-from comprope_system.sweep import key_of, sweep, values
+from comprope_system.parallel.executors import workers
+from comprope_system.parallel.sweep import key_of, sweep, values
 
 calls: list[int] = []
 
@@ -62,7 +62,7 @@ def test_a_killed_sweep_goes_on(tmp_path: Path) -> None:
     store = tmp_path / "results.jsonl"
     program = tmp_path / "killed.py"
     program.write_text(
-        "import os, sys\nfrom pathlib import Path\nfrom comprope_system.sweep import sweep\n"
+        "import os, sys\nfrom pathlib import Path\nfrom comprope_system.parallel.sweep import sweep\n"
         "def task(case):\n    if case['x'] == 2 and sys.argv[1] == 'die':\n        os._exit(9)\n    return case['x'] + 100\n"
         f"print([one.value for one in sweep(task, [{{'x': x}} for x in range(4)], store=Path({str(store)!r}))])\n"
     )
@@ -152,6 +152,6 @@ def test_dask_by_address(tmp_path: Path) -> None:
 
 def test_a_cluster_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
-    monkeypatch.setattr("comprope_system.executors.WAIT", 1)
+    monkeypatch.setattr("comprope_system.parallel.executors.WAIT", 1)
     with pytest.raises(SimulationError, match="no Dask scheduler answers"), workers(address="dask://127.0.0.1:9"):
         pass

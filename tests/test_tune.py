@@ -6,26 +6,27 @@ import control
 import numpy as np
 import pytest
 
-from comprope.drive.course import first_course
 from comprope.drive.parameters import CompensationRopes, Curve, Drive, FirstTrip, Profile, Servo, Shaft, Shaper
-from comprope.drive.stepping import DriveEngine
-from comprope.rope.model import CompensationRope
-from comprope.rope.modelfile import load, with_changes
+from comprope.drive.reference_trajectory import first_course
+from comprope.drive.simulator import DriveEngine
+from comprope.rope.model_file import load, with_changes
+from comprope.rope.simulator.rope import CompensationRope
 from comprope_system import cli
-from comprope_system.hanging import HangingString, side_string
-from comprope_system.lift import load_drive
+from comprope_system.modal.hanging_string import HangingString, side_string
+from comprope_system.prescribed_trip import side_shape
 from comprope_system.presets import model_path
-from comprope_system.ride import side_shape
-from comprope_system.tuning import bound, job, page, quiet, servo
-from comprope_system.tuning.bounce import hoist_of
-from comprope_system.tuning.calibrate import calibrated
-from comprope_system.tuning.families import KINDS, Way, course_of, drive_for
-from comprope_system.tuning.free import Goal, free_drive
-from comprope_system.tuning.measure import PLACES, Case, displacements, full_swing, small_swing, tail
-from comprope_system.tuning.motion import moves
-from comprope_system.tuning.search import Candidate, Search, _unlike
-from comprope_system.tuning.statespace import rope_model
-from comprope_system.tuning.swaying import at_rest, rope_of, still_modes
+from comprope_system.reduced_model.calibration import calibrated
+from comprope_system.reduced_model.hoist_bounce import hoist_of
+from comprope_system.reduced_model.sampled_motion import moves
+from comprope_system.reduced_model.state_space import rope_model
+from comprope_system.reduced_model.string_dynamics import at_rest, rope_of, still_modes
+from comprope_system.reduced_model.swing import PLACES, Case, displacements, full_swing, small_swing, tail
+from comprope_system.simulation.elevator import load_drive
+from comprope_system.tuning import report, travel_time_tradeoff, workflow
+from comprope_system.tuning.search import lower_bound, servo_gains
+from comprope_system.tuning.search.profile_families import KINDS, Way, course_of, drive_for
+from comprope_system.tuning.search.quasi_random_search import Candidate, Search, _unlike
+from comprope_system.tuning.search.trajectory_optimisation import Goal, free_drive
 from comprope_system.tuning.task import periods
 
 COARSE = {"rope.element_length": 0.1, "solver.step": 0.01}
@@ -143,11 +144,11 @@ def test_candidates_that_swing_the_same_count_once() -> None:
 
 def test_the_time_for_quiet_is_searched_again_until_the_full_model_agrees(monkeypatch) -> None:
     """A rope whose small model promises 0.7 of what the full one leaves, at 1 / factor of the present swing."""
-    monkeypatch.setattr(quiet, "course_of", lambda *_: None)
-    monkeypatch.setattr(quiet, "small_swing", lambda *_: None)
-    monkeypatch.setattr(quiet, "told_of", lambda _, drive, *__: {"time": drive, "full": [1.0, 1.0 / drive]})
+    monkeypatch.setattr(travel_time_tradeoff, "course_of", lambda *_: None)
+    monkeypatch.setattr(travel_time_tradeoff, "small_swing", lambda *_: None)
+    monkeypatch.setattr(travel_time_tradeoff, "told_of", lambda _, drive, *__: {"time": drive, "full": [1.0, 1.0 / drive]})
     task = type("Task", (), {"case": lambda _: None, "way": None, "watched": 0.0})()
-    found = quiet._time_for(task, lambda factor: (factor, 0.7 / factor), 0.5, 1.0)
+    found = travel_time_tradeoff._time_for(task, lambda factor: (factor, 0.7 / factor), 0.5, 1.0)
     assert found["full"][1] <= 0.5
     assert found["time"] == pytest.approx(2.0, rel=0.06)  # AIM, and the bisection's hundredth
 
@@ -155,13 +156,13 @@ def test_the_time_for_quiet_is_searched_again_until_the_full_model_agrees(monkey
 def test_no_profile_beats_the_bound_and_a_short_trip_cannot_hide() -> None:
     course = course_of(DRIVE, WAY)
     for period in (2.0, 4.0, 9.0):
-        least = bound.least_spectrum(DRIVE, WAY, 1.001 * course.duration, period)
-        assert least <= bound.spectrum(course, period) * 1.02 + 1e-3
-    assert bound.least_spectrum(DRIVE, WAY, 0.9 * course.duration, 4.0) == np.inf  # the S-curve is the fastest trip
-    assert bound.least_spectrum(DRIVE, WAY, 2.0 * course.duration, 4.0) < 1e-6
+        least = lower_bound.least_spectrum(DRIVE, WAY, 1.001 * course.duration, period)
+        assert least <= lower_bound.spectrum(course, period) * 1.02 + 1e-3
+    assert lower_bound.least_spectrum(DRIVE, WAY, 0.9 * course.duration, 4.0) == np.inf  # the S-curve is the fastest trip
+    assert lower_bound.least_spectrum(DRIVE, WAY, 2.0 * course.duration, 4.0) < 1e-6
     long = 3.0 * course.duration
-    assert bound.spectrum(course, long) >= bound.too_short(course.duration, long) > 0.49
-    assert bound.too_short(course.duration, 1.9 * course.duration) == 0.0
+    assert lower_bound.spectrum(course, long) >= lower_bound.too_short(course.duration, long) > 0.49
+    assert lower_bound.too_short(course.duration, 1.9 * course.duration) == 0.0
 
 
 def test_searched_trips_take_the_time_asked_for_within_the_limits(case: Case, s_curve: Drive) -> None:
@@ -198,18 +199,18 @@ def test_state_space_models_have_the_rope_s_periods_and_offsets(case: Case) -> N
 
 
 def test_servo_gains_keep_their_margins_and_damp_the_bounce_more() -> None:
-    present = servo.gains_of(DRIVE)
-    best = servo.best_gains(DRIVE)
+    present = servo_gains.gains_of(DRIVE)
+    best = servo_gains.best_gains(DRIVE)
     assert best.kept
     assert best.bounce > present.bounce
-    weak = servo.gains_of(DRIVE.model_copy(update={"servo": Servo(position_bandwidth=10.0)}))
+    weak = servo_gains.gains_of(DRIVE.model_copy(update={"servo": Servo(position_bandwidth=10.0)}))
     assert not weak.kept
 
 
 def test_a_trip_of_the_front_counts_where_it_is_quiet_sooner_than_what_was_found() -> None:
     found = [{"share": 0.5, "time": 9.0, "full": [1.0, 0.4]}, {"share": 0.2, "time": 12.0, "full": [1.0, 0.3]}]
     points = [{"s_curve": {"time": 8.0, "full": [1.0, 0.45]}, "tuned": {"time": 8.0, "full": [1.0, 0.6]}}]
-    half, fifth = quiet.sooner(found, points, {"full": [2.0, 1.0]})
+    half, fifth = travel_time_tradeoff.sooner(found, points, {"full": [2.0, 1.0]})
     assert half == {"share": 0.5, "time": 8.0, "full": [1.0, 0.45]}
     assert fifth == found[1]  # nothing leaves a fifth: what was found is told with what it leaves
 
@@ -224,15 +225,15 @@ def run(capsys, *arguments):
 def test_a_tiny_tuning_writes_a_drive_that_the_fmu_runs(capsys, tmp_path, monkeypatch) -> None:
     """One trip of 6 m in a shaft of 12 m, from the command to the page and back into a simulation."""
     few = {kind: KINDS[kind] for kind in ("S-curve", "smooth")}
-    for module in ("trip", "joint"):
+    for module in ("trip_tuning", "shared_controller"):
         monkeypatch.setattr(f"comprope_system.tuning.{module}.KINDS", few)
-    monkeypatch.setattr("comprope_system.tuning.quiet.LONGEST", 1.15)
-    monkeypatch.setattr("comprope_system.tuning.trip.AVERAGES", (0.0,))
-    monkeypatch.setattr("comprope_system.tuning.free.PROGRAMS", 4)
-    monkeypatch.setattr("comprope_system.tuning.trip.CURVES", 1)
-    monkeypatch.setattr("comprope_system.tuning.trip.OTHERS", 1)
-    monkeypatch.setattr("comprope_system.tuning.search.SAMPLES", 16)
-    monkeypatch.setattr("comprope_system.tuning.search.STEPS", 10)
+    monkeypatch.setattr("comprope_system.tuning.travel_time_tradeoff.LONGEST", 1.15)
+    monkeypatch.setattr("comprope_system.tuning.trip_tuning.AVERAGES", (0.0,))
+    monkeypatch.setattr("comprope_system.tuning.search.trajectory_optimisation.PROGRAMS", 4)
+    monkeypatch.setattr("comprope_system.tuning.trip_tuning.CURVES", 1)
+    monkeypatch.setattr("comprope_system.tuning.trip_tuning.OTHERS", 1)
+    monkeypatch.setattr("comprope_system.tuning.search.quasi_random_search.SAMPLES", 16)
+    monkeypatch.setattr("comprope_system.tuning.search.quasi_random_search.STEPS", 10)
     changes = [*("--set", "rope.element_length=0.2"), *("--set", "solver.step=0.01"), *("--set", "shaft.height=12")]
     told = tmp_path / "told.json"
     status, out, errors = run(
@@ -243,7 +244,7 @@ def test_a_tiny_tuning_writes_a_drive_that_the_fmu_runs(capsys, tmp_path, monkey
     result = json.loads(told.read_text())
     (trip,) = result["trips"]
     assert trip["points"][0]["tuned"]["time"] == pytest.approx(trip["points"][0]["time"], rel=1e-3)
-    assert page.errors(result["trips"])
+    assert report.errors(result["trips"])
     names = {path.name for path in tmp_path.iterdir()}
     assert {
         "tuning.html",
@@ -270,4 +271,4 @@ def test_impossible_requests_are_refused_with_every_sentence(capsys, tmp_path) -
     ]
     status, _, errors = run(capsys, "tune", "tower50", "--times", "0.9,2", "--out", tmp_path)
     assert (status, errors) == (2, "--times 0.9,2: numbers from 1 to 5, with commas between, are accepted\n")
-    assert job.read_times("1.2,1.1") == [1.1, 1.2]
+    assert workflow.read_times("1.2,1.1") == [1.1, 1.2]

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from comprope.rope.modelfile import dump, validated, with_changes
-from comprope_system.identify.campaign import Channel, Run
-from comprope_system.identify.replay import replay
-from comprope_system.trips import Trip
-from comprope_system.trips.profile import jerk_limited
+from comprope.rope.model_file import dump, validated, with_changes
+from comprope_system.identification.data.campaign import Channel, Run
+from comprope_system.identification.prediction.replay import replay
+from comprope_system.measurements import Trip
+from comprope_system.measurements.jerk_limited_profile import jerk_limited
 
 MODEL = validated(
     {

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from . import faults, texts
+from . import campaign_files, faults
 from .causes import CAUSES
-from .ride import STEP, course, ride
+from .simulate import STEP, course, ride
 from .sites import TOWER50, Site
 from .tower import Floats
 from .trip import trip
@@ -118,8 +118,8 @@ def write(plan: Plan, folder: Path) -> None:
         rows = measured(plan, *planted(plan, name, plan.causes), plan.causes)
         if name == lightest and plan.kind != "nothing":
             shift = shifted(site, rows, measured(plan, *planted(plan, name, {}), {}))
-        texts.table(folder / f"{name}.csv", noisy(plan, rows, np.random.default_rng([plan.seed, 3, k])))
-    texts.describe(folder, site, plan.seed, stated_noise(plan))
+        campaign_files.table(folder / f"{name}.csv", noisy(plan, rows, np.random.default_rng([plan.seed, 3, k])))
+    campaign_files.describe(folder, site, plan.seed, stated_noise(plan))
     truth = {
         "site": site.name, "kind": plan.kind, "causes": plan.causes, "column": plan.column, "level": plan.level,
         "seed": plan.seed, "before": plan.before, "plant": plan.plant, "near": near(plan), "shift": shift,

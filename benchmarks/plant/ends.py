@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.signal import lsim
 
-from .ride import Course
+from .simulate import Course
 from .tower import Floats, Tower
 
 Values = Mapping[str, float]

@@ -6,7 +6,7 @@ its curvature is that of the circle touching both in their middles, kappa = 2 ta
 
 import math
 
-from .compiled import kernel
+from .jit import kernel
 
 
 @kernel

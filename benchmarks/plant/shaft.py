@@ -2,7 +2,7 @@
 
 import math
 
-from .compiled import kernel
+from .jit import kernel
 from .sheave import slope
 from .tower import GRAVITY
 

@@ -6,7 +6,7 @@ a node by a_n along the normal and a_t along the groove; the same two numbers ta
 
 import math
 
-from .compiled import kernel
+from .jit import kernel
 from .tower import GRAVITY
 
 FADE = 1e-4  # m, penetration over which contact damping sets in

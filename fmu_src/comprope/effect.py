@@ -3,10 +3,10 @@
 See docs/own_effect.md. In an FMU this package has another name; a file of effects finds these names there all the same.
 """
 
-from .declare import quantity
-from .rope import work
+from .quantities import quantity
 from .rope.effects.base import Effect, acts, register
-from .rope.jit import kernel
-from .rope.slots import slot
+from .rope.runtime import array_layout as work
+from .rope.runtime.jit import kernel
+from .rope.runtime.parameter_vector import slot
 
 __all__ = ["Effect", "acts", "kernel", "quantity", "register", "slot", "work"]

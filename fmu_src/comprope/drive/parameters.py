@@ -8,7 +8,7 @@ from itertools import accumulate
 
 from pydantic import model_validator
 
-from ..declare import Component, quantity
+from ..quantities import Component, quantity
 
 SHORTEST = 0.01  # s, of a moving average: a shorter one would be lost in rounding
 PARTS = 20  # of the travel time, for trips of a free shape

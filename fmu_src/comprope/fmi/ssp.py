@@ -5,9 +5,9 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..whole import whole_file
-from .build import zipped
-from .engine import ModelInterface, Value, Variable
+from ..atomic_files import whole_file
+from .model_interface import ModelInterface, Value, Variable
+from .package import zipped
 
 _NAMESPACES = {
     "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from ..declare import Component, quantity
+from ..quantities import Component, quantity
 
 DEFAULT_STEP = 0.004
 

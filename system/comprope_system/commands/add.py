@@ -18,7 +18,7 @@ def add(campaign: CAMPAIGN, effect: EFFECT, out: OUT = None, json: JSON = None, 
 
     An effect that the model has already is fitted again. The new model file tells in its first lines what was fitted.
     """
-    from ..identify.jobs import Request
-    from ..identify.jobs import add as run
+    from ..identification.workflow import Request
+    from ..identification.workflow import add as run
 
     run(Request(campaign, json, report, out, jobs), effect)

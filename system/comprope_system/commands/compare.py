@@ -15,7 +15,7 @@ def compare(campaign: CAMPAIGN, json: JSON = None, report: REPORT = None) -> Non
 
     Errors are told for each run, channel and phase of the trip. Where the data themselves are odd, that is told too.
     """
-    from ..identify.jobs import Request
-    from ..identify.jobs import compare as run
+    from ..identification.workflow import Request
+    from ..identification.workflow import compare as run
 
     run(Request(campaign, json, report))

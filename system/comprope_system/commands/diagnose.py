@@ -19,7 +19,7 @@ def diagnose(
 
     Runs with role "validate" are used for neither fit nor ranking: they show whether the effect holds elsewhere.
     """
-    from ..identify.jobs import Request
-    from ..identify.jobs import diagnose as run
+    from ..identification.workflow import Request
+    from ..identification.workflow import diagnose as run
 
     run(Request(campaign, json, report, jobs=jobs, without=tuple(without or ())))

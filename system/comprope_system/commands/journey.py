@@ -17,7 +17,7 @@ def journey(campaign: CAMPAIGN, out: OUT = None, json: JSON = None, report: REPO
 
     Tells what each effect bought: its share of the fall of the error, on fitted runs and on runs held out.
     """
-    from ..identify.jobs import Request
-    from ..identify.jobs import journey as run
+    from ..identification.workflow import Request
+    from ..identification.workflow import journey as run
 
     run(Request(campaign, json, report, out, jobs))

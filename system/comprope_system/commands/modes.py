@@ -19,6 +19,6 @@ def modes(model: MODEL, car: CAR = 0.0, count: COUNT = 10, changes: SET = None, 
     Small motions about the shape at rest: the rope sticks to a sheave that is free to turn and to rise. Beside each
     lateral mode stands the period of an ideal hanging string.
     """
-    from ..modes_job import Request, run
+    from ..modal.workflow import Request, run
 
     run(Request(model, car, count, tuple(changes or ()), plot, json))

@@ -49,7 +49,7 @@ def simulate(
     The CSV file has a column for each sensor of the model: lateral displacement in metres, outward,
     empty where the rope's end has passed the sensor. All other columns are in SI units too.
     """
-    from ..trip_job import Motion, Request, run
+    from ..simulation.workflow import Motion, Request, run
 
     profile = {"speed": speed, "acceleration": acceleration, "jerk": jerk}
     motion = Motion(start, end, {key: value for key, value in profile.items() if value is not None}, drive, car)

@@ -50,6 +50,6 @@ def tune(
     Speed, acceleration and jerk stay within the present drive's limits. Found on a small linear rope, judged on the full model,
     and installed as FMUs. An interrupted run goes on where it stopped when it is started again with the same folder.
     """
-    from ..tuning.job import Request, run
+    from ..tuning.workflow import Request, run
 
     run(Request(model, drive, trip or (), times, extra, limit, weight, spread, tuple(changes or ()), out, json, jobs, executor))

@@ -17,6 +17,6 @@ def verify(names: NAMES = None, out: OUT = Path("verification")) -> None:
 
     Writes one page with tables and figures; the exit status is 1 if a check fails.
     """
-    from ..verification.job import run
+    from ..verification.workflow import run
 
     run(names or (), out)

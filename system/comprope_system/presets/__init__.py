@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from comprope.errors import InputError
-from comprope.explain import suggestion
+from comprope.validation_messages import suggestion
 
 _FOLDER = Path(__file__).parent
 

@@ -13,7 +13,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
 
-from comprope.whole import whole_file
+from comprope.atomic_files import whole_file
 
 DPI = 130
 NUMBER = re.compile(r"[-−+]?[\d.][\d.e+/-]*( ± [\d.e+-]+)?( [^ \d]+)?")  # or two, with a deviation, with a unit

@@ -6,13 +6,13 @@ from typing import Any
 
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
-from comprope.rope.modelfile import as_table, with_changes
+from comprope.rope.model_file import as_table, with_changes
 
+from ..parallel.sweep import Case
+from ..presets.paper_installations import model_in, with_sheave
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
-from ..sweep import Case
-from .buildings import model_in, with_sheave
-from .draw import COLOURS, GREY, label, panels, plain_log
+from ..report.plot_style import COLOURS, GREY, label, panels, plain_log
 from .study import AGREES, Ask, Study
 from .swing import MEASURES, swing, swing_case
 

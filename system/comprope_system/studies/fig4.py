@@ -4,14 +4,14 @@ from typing import Any
 
 import numpy as np
 
-from comprope.rope.model import CompensationRope
+from comprope.rope.simulator.rope import CompensationRope
 
+from ..parallel.sweep import Case
+from ..prescribed_trip import Floats
+from ..presets.paper_installations import TOWER, building, model_in, table, with_sheave
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
-from ..ride import Floats
-from ..sweep import Case
-from .buildings import TOWER, building, model_in, table, with_sheave
-from .draw import COLOURS, GREY, label, legend, panels, plain_log
+from ..report.plot_style import COLOURS, GREY, label, legend, panels, plain_log
 from .study import AGREES, DIFFERS, Ask, Study
 
 FRACTIONS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.9, 1.0)  # of the nominal weight

@@ -6,15 +6,15 @@ import numpy as np
 from scipy.signal import find_peaks
 from scipy.stats import spearmanr
 
-from comprope.rope.model import CompensationRope
+from comprope.rope.simulator.rope import CompensationRope
 
-from ..hanging import HangingString, side_string
+from ..modal.hanging_string import HangingString, side_string
+from ..parallel.sweep import Case
+from ..prescribed_trip import Floats, record, side_shape, trip_of
+from ..presets.paper_installations import TOWER, model_in, up
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
-from ..ride import Floats, record, side_shape, trip_of
-from ..sweep import Case
-from .buildings import TOWER, model_in, up
-from .draw import COLOURS, label, legend, panels, plain_log
+from ..report.plot_style import COLOURS, label, legend, panels, plain_log
 from .study import AGREES, DIFFERS, Ask, Study
 from .swing import swing_case
 

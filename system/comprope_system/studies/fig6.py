@@ -4,12 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from ..hanging import side_string
+from ..modal.hanging_string import side_string
+from ..parallel.sweep import Case
+from ..presets.paper_installations import BUILDING, LIMITS, building, up, with_sheave
 from ..report.finding import Fact, Finding
 from ..report.page import Block, Picture, Table
-from ..sweep import Case
-from .buildings import BUILDING, LIMITS, building, up, with_sheave
-from .draw import COLOURS, GREY, label, legend, panels
+from ..report.plot_style import COLOURS, GREY, label, legend, panels
 from .peaks import oscillator_peak, peak
 from .study import AGREES, DIFFERS, PARTLY, Ask, Study
 from .swing import MEASURES, swing, swing_case

@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from ..parallel.sweep import Case
+from ..prescribed_trip import trip_of
+from ..presets.paper_installations import BUILDING, LIMITS, limits, up
 from ..report.finding import Fact, Finding
 from ..report.page import Picture
-from ..ride import trip_of
-from ..sweep import Case
-from .buildings import BUILDING, LIMITS, limits, up
-from .draw import FIRST, label, panels
+from ..report.plot_style import FIRST, label, panels
 from .study import AGREES, DIFFERS, Ask, Study
 
 DISTANCE, DURATION = 22.0, 10.2  # m, s, both stated

@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from ..hanging import side_string
+from ..modal.hanging_string import side_string
+from ..parallel.sweep import Case
+from ..prescribed_trip import Floats
+from ..presets.paper_installations import BUILDING, building, up, with_sheave
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
-from ..ride import Floats
-from ..sweep import Case
-from .buildings import BUILDING, building, up, with_sheave
-from .draw import COLOURS, label, legend, panels, plain_log
+from ..report.plot_style import COLOURS, label, legend, panels, plain_log
 from .study import AGREES, DIFFERS, PARTLY, Ask, Study
 from .swing import MEASURES, swing, swing_case
 

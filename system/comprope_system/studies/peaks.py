@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..ride import Floats
-from .buildings import BUILDING, up
+from ..prescribed_trip import Floats
+from ..presets.paper_installations import BUILDING, up
 
 
 def peak(distances: Floats, values: Floats) -> float:

@@ -6,16 +6,16 @@ from typing import Any
 from scipy.optimize import brentq
 
 from comprope.rope.effects import RopeModel
-from comprope.rope.modelfile import with_changes
+from comprope.rope.model_file import with_changes
 from comprope.rope.parameters import Base
 
-from ..hanging import mass_for_period, side_string
-from ..modes import modes
+from ..modal.hanging_string import mass_for_period, side_string
+from ..modal.modes import modes
+from ..parallel.sweep import Case
+from ..presets.paper_installations import BUILDING, building, model_in, table, with_sheave
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
-from ..sweep import Case
-from .buildings import BUILDING, building, model_in, table, with_sheave
-from .draw import COLOURS, label, legend, panels
+from ..report.plot_style import COLOURS, label, legend, panels
 from .study import AGREES, DIFFERS, Ask, Study
 
 CAR, PERIOD = 22.0, 10.27  # m, s, both stated

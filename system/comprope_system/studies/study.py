@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ..parallel.sweep import Case, Task
 from ..report.finding import Finding, fact_table
 from ..report.page import Section
-from ..sweep import Case, Task
 
 AGREES, DIFFERS, PARTLY = "yes", "no", "partly"
 

@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.rope.model import CompensationRope
 from comprope.rope.parameters import Base
+from comprope.rope.simulator.rope import CompensationRope
 
-from ..hanging import side_string
-from ..ride import Floats, record, side_shape, trip_of
-from ..sweep import Case
-from .buildings import limits, model_in, table
+from ..modal.hanging_string import side_string
+from ..parallel.sweep import Case
+from ..prescribed_trip import Floats, record, side_shape, trip_of
+from ..presets.paper_installations import limits, model_in, table
 
 AFTER = 20.0  # s watched after the trip: the rope's slowest period and more
 FRACTIONS = np.linspace(0.02, 0.98, 25)  # of the free length, from the axle to the end

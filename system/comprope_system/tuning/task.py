@@ -9,15 +9,16 @@ from typing import Any
 
 from comprope.drive.parameters import Drive
 from comprope.rope.effects import RopeModel
-from comprope.rope.modelfile import as_table, with_changes
+from comprope.rope.model_file import as_table, with_changes
 
-from ..hanging import side_string
-from ..studies.buildings import with_sheave
-from .bounce import Hoist, hoist_of
-from .calibrate import calibrated
-from .families import Way, course_of
-from .installed import installed
-from .measure import Case, Swing, tail
+from .. import reduced_model
+from ..modal.hanging_string import side_string
+from ..presets.paper_installations import with_sheave
+from ..reduced_model.calibration import calibrated
+from ..reduced_model.hoist_bounce import Hoist, hoist_of
+from ..reduced_model.swing import Case, Swing, tail
+from .fmu_validation import installed
+from .search.profile_families import Way, course_of
 
 CHOSEN = {"profile", "curve", "shaper", "servo"}  # parts of the drive that a tuning chooses
 
@@ -88,8 +89,9 @@ def as_case(task: Task) -> dict[str, Any]:
 
 @cache
 def source() -> str:
-    """A hash of the tuning's own files, so that a sweep takes over no results of another version."""
-    text = b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
+    """A hash of the tuning's files and of the reduced model's, so that a sweep takes over no results of another version."""
+    folders = (Path(__file__).parent, Path(reduced_model.__file__).parent)
+    text = b"".join(path.read_bytes() for folder in folders for path in sorted(folder.rglob("*.py")))
     return hashlib.sha256(text).hexdigest()[:16]
 
 

@@ -5,14 +5,14 @@ from typing import Any
 
 import numpy as np
 
-from comprope.rope.ends import PATH, PATHS
-from comprope.rope.model import CompensationRope
+from comprope.rope.mechanics.end_conditions import PATH, PATHS
+from comprope.rope.simulator.rope import CompensationRope
 
+from ..prescribed_trip import Floats, record
+from ..presets.paper_installations import TOWER, building, up
 from ..report.finding import Finding
 from ..report.page import Block, Picture, Table
-from ..ride import Floats, record
-from ..studies.buildings import TOWER, building, up
-from ..studies.draw import COLOURS, label, legend, panels, plain_log
+from ..report.plot_style import COLOURS, label, legend, panels, plain_log
 from .check import Check, judged
 from .reference import rms
 

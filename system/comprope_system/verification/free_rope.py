@@ -10,10 +10,13 @@ from math import pi
 
 import numpy as np
 
-from comprope.rope import band, elastica, newmark, work
-from comprope.rope.slots import vector
+from comprope.rope.integration import newmark
+from comprope.rope.linalg import block_band
+from comprope.rope.mechanics import internal_forces
+from comprope.rope.runtime import array_layout
+from comprope.rope.runtime.parameter_vector import vector
 
-from ..ride import Floats
+from ..prescribed_trip import Floats
 
 TOLERANCE = 1e-10  # m, the last correction
 ITERATIONS = 20
@@ -65,7 +68,7 @@ class FreeRope:
         self.n = rope.elements + 1
         m, self.element = self.n + 1, rope.length / rope.elements
         self.q, self.v, self.a, self.f, self.r = (np.zeros(2 * m) for _ in range(5))
-        self.w, self.A, self.L = (np.zeros(size * m) for size in (work.SECTIONS, work.BAND, band.FACTOR))
+        self.w, self.A, self.L = (np.zeros(size * m) for size in (array_layout.SECTIONS, array_layout.BAND, block_band.FACTOR))
         self.count = np.zeros(newmark.COUNTS)
         self.masses = np.full(self.n, rope.mass_per_length * self.element)
         self.masses[-1] = rope.mass + 0.5 * rope.mass_per_length * self.element
@@ -90,9 +93,9 @@ class FreeRope:
     def _residual(self) -> None:
         """r = f - M a; none at the upper end."""
         n, m = self.n, self.n + 1
-        elastica.stretch(n, self.p, self.q, self.v, self.w)
-        elastica.bend(n, self.p, self.w)
-        elastica.sum_forces(n, self.p, self.v, self.w, self.f)
+        internal_forces.stretch(n, self.p, self.q, self.v, self.w)
+        internal_forces.bend(n, self.p, self.w)
+        internal_forces.sum_forces(n, self.p, self.v, self.w, self.f)
         self.f[n - 1] += self.rope.mass * self.rope.gravity
         for s in (0, m):
             self.r[s : s + n] = self.f[s : s + n] - self.masses * self.a[s : s + n]
@@ -101,37 +104,37 @@ class FreeRope:
     def _solve(self, h: float) -> None:
         """Replace r by the correction of the acceleration."""
         n, ck = self.n, 0.25 * h * h
-        elastica.segment_blocks(n, self.p, self.w, ck, 0.5 * h)
-        elastica.bending_stiffness(n, self.p, self.w, ck, 0.5 * h)
-        elastica.assemble(n, self.p, self.w, self.A, 1.0, 0.5 * h)
+        internal_forces.segment_blocks(n, self.p, self.w, ck, 0.5 * h)
+        internal_forces.bending_stiffness(n, self.p, self.w, ck, 0.5 * h)
+        internal_forces.assemble(n, self.p, self.w, self.A, 1.0, 0.5 * h)
         self._ends()
         first, last = n - 3, n - 1
-        band.factor(n, self.A, self.L, self.r, first, last)
+        block_band.factor(n, self.A, self.L, self.r, first, last)
         self._solve_last_nodes(first)
-        band.outwards(n, self.L, self.r, first, last)
+        block_band.outwards(n, self.L, self.r, first, last)
 
     def _ends(self) -> None:
         """Hold the upper end; add to the tangent what the lower one has as a free end."""
         n, m = self.n, self.n + 1
-        A, w = self.A.reshape(work.BAND, m), self.w.reshape(work.SECTIONS, m)
+        A, w = self.A.reshape(array_layout.BAND, m), self.w.reshape(array_layout.SECTIONS, m)
         A[:, 0] = 0.0
-        A[[work.DXX, work.DYY], 0] = 1.0
-        e, k = n - 2, w[work.BENDING, n - 2]
-        own = w[[work.WX, work.WY], e]
-        both = w[[work.WX, work.WY], e - 1] + own
-        S = np.array([[w[work.SXX, e], w[work.SXY, e]], [w[work.SXY, e], w[work.SYY, e]]])
+        A[[array_layout.DXX, array_layout.DYY], 0] = 1.0
+        e, k = n - 2, w[array_layout.BENDING, n - 2]
+        own = w[[array_layout.WX, array_layout.WY], e]
+        both = w[[array_layout.WX, array_layout.WY], e - 1] + own
+        S = np.array([[w[array_layout.SXX, e], w[array_layout.SXY, e]], [w[array_layout.SXY, e], w[array_layout.SYY, e]]])
         end = S + k * np.outer(own, own) + self.masses[-1] * np.eye(2)
-        A[[work.DXX, work.DXY, work.DYY], n - 1] = end[0, 0], end[0, 1], end[1, 1]
-        A[work.EXX : work.EYY + 1, e] = (-S - k * np.outer(both, own)).ravel()
+        A[[array_layout.DXX, array_layout.DXY, array_layout.DYY], n - 1] = end[0, 0], end[0, 1], end[1, 1]
+        A[array_layout.EXX : array_layout.EYY + 1, e] = (-S - k * np.outer(both, own)).ravel()
 
     def _solve_last_nodes(self, first: int) -> None:
         """Solve the dense rest of the elimination: the last three nodes."""
         m = self.n + 1
-        A, rest = self.A.reshape(work.BAND, m), np.zeros((3, 3, 2, 2))
+        A, rest = self.A.reshape(array_layout.BAND, m), np.zeros((3, 3, 2, 2))
         for k in range(3):
-            xx, xy, yy = A[[work.DXX, work.DXY, work.DYY], first + k]
+            xx, xy, yy = A[[array_layout.DXX, array_layout.DXY, array_layout.DYY], first + k]
             rest[k, k] = [[xx, xy], [xy, yy]]
-        for k, j, base in ((0, 1, work.EXX), (1, 2, work.EXX), (0, 2, work.GXX)):
+        for k, j, base in ((0, 1, array_layout.EXX), (1, 2, array_layout.EXX), (0, 2, array_layout.GXX)):
             rest[k, j] = A[base : base + 4, first + k].reshape(2, 2)
             rest[j, k] = rest[k, j].T
         places = [first, first + m, first + 1, first + 1 + m, first + 2, first + 2 + m]

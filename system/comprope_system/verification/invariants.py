@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from comprope.rope.model import CompensationRope
+from comprope.rope.simulator.rope import CompensationRope
 
+from ..prescribed_trip import INTERVAL, Floats, ends_path, record, ride
+from ..presets.paper_installations import TOWER, building, up
 from ..report.finding import Finding
 from ..report.page import Picture, Table
-from ..ride import INTERVAL, Floats, ends_path, record, ride
-from ..studies.buildings import TOWER, building, up
-from ..studies.draw import COLOURS, label, legend, panels, plain_log
+from ..report.plot_style import COLOURS, label, legend, panels, plain_log
 from .check import Check, judged
 
 DISTANCE, UNTIL = 20.0, 14.0  # m, s

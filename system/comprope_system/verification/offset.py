@@ -5,15 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from comprope.rope.model import CompensationRope
 from comprope.rope.parameters import Base
+from comprope.rope.simulator.rope import CompensationRope
 
-from ..hanging import side_string
+from ..modal.hanging_string import side_string
+from ..prescribed_trip import Floats, side_shape
+from ..presets.paper_installations import TOWER, building, with_sheave
 from ..report.finding import Finding
 from ..report.page import Picture, Table
-from ..ride import Floats, side_shape
-from ..studies.buildings import TOWER, building, with_sheave
-from ..studies.draw import COLOURS, label, legend, panels
+from ..report.plot_style import COLOURS, label, legend, panels
 from .check import Check, judged
 
 STIFFNESSES = (5.0, 10.0, 20.0, 40.0)  # N m2

@@ -4,12 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from ..hanging import side_string
-from ..modes import Modes, modes
+from ..modal.hanging_string import side_string
+from ..modal.modes import Modes, modes
+from ..presets.paper_installations import BUILDING, building
 from ..report.finding import Finding
 from ..report.page import Picture, Table
-from ..studies.buildings import BUILDING, building
-from ..studies.draw import COLOURS, label, legend, panels
+from ..report.plot_style import COLOURS, label, legend, panels
 from .check import Check, judged
 
 CAR = 22.0  # m

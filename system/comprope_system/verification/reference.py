@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from ..prescribed_trip import Floats
 from ..report.finding import Finding
 from ..report.page import Picture, Table
-from ..ride import Floats
-from ..studies.draw import COLOURS, label, legend, panels
+from ..report.plot_style import COLOURS, label, legend, panels
 from .check import Check, judged
 from .free_rope import Hanging, swing_sideways
 

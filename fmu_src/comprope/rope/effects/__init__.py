@@ -6,14 +6,22 @@ from typing import Any
 
 from pydantic import Field, create_model
 
-from ...declare import Component
+from ...quantities import Component
 from ..parameters import Base
-from . import air_drag, bending_hysteresis, intrinsic_curvature, own, rope_ends, sheave_eccentricity, sheave_guide
+from . import (
+    air_drag,
+    bending_hysteresis,
+    end_displacement,
+    intrinsic_curvature,
+    sheave_eccentricity,
+    sheave_friction,
+    user_effects,
+)
 from .base import HOOKS, INSTRUMENT, REGISTRY, Effect, acts, register
 
 __all__ = [
-    "HOOKS", "INSTRUMENT", "REGISTRY", "Effect", "RopeModel", "acts", "air_drag", "bending_hysteresis", "intrinsic_curvature",
-    "model_type", "names_of", "own", "register", "rope_ends", "sheave_eccentricity", "sheave_guide",
+    "HOOKS", "INSTRUMENT", "REGISTRY", "Effect", "RopeModel", "acts", "air_drag", "bending_hysteresis", "end_displacement",
+    "intrinsic_curvature", "model_type", "names_of", "register", "sheave_eccentricity", "sheave_friction", "user_effects",
 ]  # fmt: skip
 
 class RopeModel(Base):
@@ -26,19 +34,19 @@ class RopeModel(Base):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickled as plain tables, since the type itself is made at run time; own effects go with their source."""
-        return restored, (self.model_dump(exclude_none=True), {path: own.FILES[path].text for path in self.own_effects})
+        return restored, (self.model_dump(exclude_none=True), {path: user_effects.FILES[path].text for path in self.own_effects})
 
 
 def restored(table: dict[str, Any], sources: Mapping[str, str]) -> RopeModel:
     """The model of a table, with its own effects by file and source: who pickled it had consented to run them."""
     for path, text in sources.items():
-        own.admit(path, text)
+        user_effects.admit(path, text)
     return model_type(table["own_effects"]).model_validate(table)
 
 
 def model_type(files: Iterable[str] = ()) -> type[RopeModel]:
     """The model type with a field for every effect of comprope and of these files, which have been admitted."""
-    names = {name for path in files for name in own.FILES[path].effects}
+    names = {name for path in files for name in user_effects.FILES[path].effects}
     return _type_with(tuple(one for one in REGISTRY.items() if not one[1].source or one[0] in names))
 
 

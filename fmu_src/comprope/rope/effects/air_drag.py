@@ -8,10 +8,10 @@ outward on both sides at a fraction of the car's velocity; it needs the drag coe
 from math import copysign
 from typing import ClassVar
 
-from ...declare import quantity
-from ..jit import kernel
-from ..slots import DIAMETER, ELEMENT, slot
-from ..work import DXX, DXY, DYY, TX, TY
+from ...quantities import quantity
+from ..runtime.array_layout import DXX, DXY, DYY, TX, TY
+from ..runtime.jit import kernel
+from ..runtime.parameter_vector import DIAMETER, ELEMENT, slot
 from .base import Effect, acts, register
 
 

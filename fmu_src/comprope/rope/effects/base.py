@@ -20,9 +20,9 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any, ClassVar
 
-from ...declare import Component
 from ...errors import InputError
-from .. import slots
+from ...quantities import Component
+from ..runtime import parameter_vector
 
 Kernel = Callable[..., Any]
 # The arguments of each kernel.
@@ -79,7 +79,7 @@ def register(effect: type[Effect]) -> type[Effect]:
         raise InputError(f'{effect.__name__}.name = "{name}": {where} has an effect of this name; another name is accepted')
     effect.first_state = sum(one.states for one in REGISTRY.values())
     REGISTRY[name] = effect
-    slots.declare(f"effects.{name}", effect)
+    parameter_vector.declare(f"effects.{name}", effect)
     return effect
 
 

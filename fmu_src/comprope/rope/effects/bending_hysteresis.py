@@ -8,10 +8,10 @@ at the start.
 from math import exp
 from typing import ClassVar
 
-from ...declare import quantity
-from ..jit import kernel
-from ..slots import ELEMENT, slot
-from ..work import BEND_RATE, CURVATURE, MOMENT, STIFF
+from ...quantities import quantity
+from ..runtime.array_layout import BEND_RATE, CURVATURE, MOMENT, STIFF
+from ..runtime.jit import kernel
+from ..runtime.parameter_vector import ELEMENT, slot
 from .base import Effect, acts, register
 
 

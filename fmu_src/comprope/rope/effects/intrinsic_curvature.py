@@ -1,9 +1,9 @@
 """A rope that is bent by nature: it is free of moment at a curvature of its own, M = EI (kappa - kappa_0)."""
 
-from ...declare import quantity
-from ..jit import kernel
-from ..slots import EI, ELEMENT, slot
-from ..work import BEND_RATE, MOMENT
+from ...quantities import quantity
+from ..runtime.array_layout import BEND_RATE, MOMENT
+from ..runtime.jit import kernel
+from ..runtime.parameter_vector import EI, ELEMENT, slot
 from .base import Effect, acts, register
 
 

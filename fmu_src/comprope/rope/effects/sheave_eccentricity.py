@@ -2,9 +2,9 @@
 
 from math import cos, pi, sin
 
-from ...declare import quantity
-from ..jit import kernel
-from ..slots import slot
+from ...quantities import quantity
+from ..runtime.jit import kernel
+from ..runtime.parameter_vector import slot
 from .base import Effect, acts, register
 
 

@@ -1,0 +1,132 @@
+"""The drive as a model for co-simulation: its variables, and how an engine is made from their values.
+
+Rules for calls: the trip that the parameters `trip.*` describe is made first. After that a change of the input
+`destination` is a call: it is answered when the car's reference stands still, and only the latest one
+counts if it changes while a trip is on. What the input holds at the start is no call.
+"""
+
+from collections.abc import Mapping
+from math import ceil
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from ..errors import InputError
+from ..fmi.model_interface import ModelInterface, Variable, parameters_of
+from ..validation_messages import problems
+from .hoist_dynamics import holding_force
+from .parameters import Drive
+from .reference_trajectory import first_course
+from .simulator import DriveEngine, compensation_pulls, input_problems
+from .stability_margins import unstable_positions
+
+NAME = "ElevatorDrive"
+# What makes the interface inside an FMU.
+ENTRY = """\
+from .drive.cosimulation import interface
+
+INTERFACE = interface()
+"""
+_DESCRIPTION = "Elevator drive: jerk-limited trips, position and speed servo, car and counterweight on elastic hoist ropes"
+_PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in ("lift", "trip"))
+_REST_AFTER = 5.0  # s that a run goes on after the first trip, unless told otherwise
+_REAL_OUTPUTS = (  # name, unit, nominal, help
+    ("car_position", "m", 10.0, "car height above the bottom landing"),
+    ("car_velocity", "m/s", 1.0, "car velocity, up positive"),
+    ("car_acceleration", "m/s2", 1.0, "car acceleration, up positive"),
+    ("counterweight_position", "m", 10.0, "counterweight height above the bottom landing"),
+    ("counterweight_velocity", "m/s", 1.0, "counterweight velocity, up positive"),
+    ("counterweight_acceleration", "m/s2", 1.0, "counterweight acceleration, up positive"),
+    ("encoder_position", "m", 10.0, "car height by the encoder on the traction sheave, blind to the hoist ropes' stretch"),
+    ("motor_torque", "N.m", 1000.0, "torque of the motor, positive when it lifts the car"),
+    ("reference_position", "m", 10.0, "car height that the trip asks for"),
+    ("reference_velocity", "m/s", 1.0, "car velocity that the trip asks for"),
+    ("reference_acceleration", "m/s2", 1.0, "car acceleration that the trip asks for"),
+)
+_FLAGS = (
+    ("moving", "a trip is on: the reference moves"),
+    ("trip_finished", "the latest trip has ended: the reference stands at its destination"),
+)
+
+
+def interface(drive: Drive | None = None) -> ModelInterface:
+    """The drive's variables and maker; parameters start at the values of `drive`, by default the declared ones."""
+    chosen = drive or Drive()
+    stop_time = ceil(first_course(chosen).end_time + _REST_AFTER)
+    variables = _parameters(chosen) + _inputs(chosen) + _outputs()
+    return ModelInterface(NAME, _DESCRIPTION, variables, create, stop_time=float(stop_time), pictures=_PICTURES)
+
+
+def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> DriveEngine:
+    """A drive at rest at `start_time` [s] from values by name, as declared by `interface`.
+
+    Raises `InputError` with one sentence for each problem: unknown, impossible or contradicting values, a torque limit
+    that cannot hold the car, gains that make the servo unstable.
+    """
+    drive = drive_of(parameters)
+    found = input_problems(drive, inputs) + _start_problems(drive, start_time)
+    found = found or _torque_problems(drive, inputs) + _gain_problems(drive)
+    if found:
+        raise InputError("; ".join(found))
+    return DriveEngine(drive, inputs, start_time)
+
+
+def drive_of(parameters: Mapping[str, Any]) -> Drive:
+    """The drive that parameters such as `profile.speed` describe; raises `InputError` with all problems."""
+    tables: dict[str, Any] = {}
+    for name, value in parameters.items():
+        component, _, quantity = name.partition(".")
+        tables.setdefault(component, {})[quantity] = value
+    try:
+        return Drive.model_validate(tables)
+    except ValidationError as error:
+        raise InputError("; ".join(problems(error, Drive))) from None
+
+
+def _start_problems(drive: Drive, start_time: float) -> list[str]:
+    first = drive.trip.start_time
+    if first >= start_time:
+        return []
+    return [f"trip.start_time = {first} s: the start of the simulation, {start_time} s, or later is accepted"]
+
+
+def _torque_problems(drive: Drive, inputs: Mapping[str, Any]) -> list[str]:
+    force = holding_force(drive, drive.trip.start_position, *compensation_pulls(drive, inputs))
+    needed, limit = abs(force) * drive.plant.sheave_radius, drive.servo.torque_limit
+    if limit > needed:
+        return []
+    return [f"servo.torque_limit = {limit} N.m: more than the {needed:.6g} N.m that hold the car at its start is accepted"]
+
+
+def _gain_problems(drive: Drive) -> list[str]:
+    swinging = unstable_positions(drive)
+    if not swinging:
+        return []
+    servo = drive.servo
+    return [
+        f"servo.position_bandwidth = {servo.position_bandwidth} rad/s, servo.speed_bandwidth = {servo.speed_bandwidth} rad/s, "
+        f"servo.speed_damping = {servo.speed_damping}, servo.sample_period = {servo.sample_period} s: unstable with the car at "
+        f"{' and '.join(f'{x:g} m' for x in swinging)}; gains are accepted that keep the loop stable, such as a lower "
+        "bandwidth and position_bandwidth at most a quarter of speed_bandwidth"
+    ]
+
+
+def _parameters(drive: Drive) -> tuple[Variable, ...]:
+    parts = ((name, getattr(drive, name)) for name in Drive.model_fields)
+    return tuple(variable for name, part in parts for variable in parameters_of(name, type(part), part.model_dump()))
+
+
+def _inputs(drive: Drive) -> tuple[Variable, ...]:
+    pull = "tension of one compensation rope at its {} end, pulling down; its value at the start is part of the rest"
+    tensions = (
+        Variable(f"{end}_end_tension", "real", "input", pull.format(end), "N", 0.0, -1e6, 1e6, 1000.0)
+        for end in ("car", "counterweight")
+    )
+    call = "a change of it calls the car to this height once it stands; its value at the start is no call"
+    return (Variable("destination", "real", "input", call, "m", drive.trip.destination, 0.0, 1000.0, 10.0), *tensions)
+
+
+def _outputs() -> tuple[Variable, ...]:
+    numbers = (Variable(name, "real", "output", help, unit, nominal=nominal) for name, unit, nominal, help in _REAL_OUTPUTS)
+    return (*numbers, *(Variable(name, "boolean", "output", help) for name, help in _FLAGS))

@@ -1,0 +1,90 @@
+"""What the servo follows: a jerk-limited trip, or one of a free shape, smoothed and shaped.
+
+Smoothing is a moving average over the last S seconds, after which the jerk has ramps too:
+
+    velocity = (p(t) - p(t - S)) / S,   position = (W(t) - W(t - S)) / S   with W the integral of p
+
+Neither a moving average nor an input shaper lets a quantity pass a limit that the trip keeps.
+"""
+
+from dataclasses import dataclass
+
+from .free_curve import CurveTrip, curved
+from .input_shaper import NONE, Impulses, impulses
+from .parameters import Drive
+from .s_curve import Motion, Trip, plan
+
+
+@dataclass(frozen=True)
+class Course:
+    """A trip passed through a moving average of `smoothing` [s] and through a shaper's `impulses` (delay [s], share)."""
+
+    trip: Trip | CurveTrip
+    smoothing: float = 0.0
+    impulses: Impulses = NONE
+
+    @property
+    def start_time(self) -> float:
+        """When the reference leaves its rest [s]."""
+        return self.trip.start_time
+
+    @property
+    def origin(self) -> float:
+        """Where it starts [m]."""
+        return self.trip.origin
+
+    @property
+    def destination(self) -> float:
+        """Where it ends [m]."""
+        return self.trip.destination
+
+    @property
+    def duration(self) -> float:
+        """Time [s] from rest to rest: the trip's own, the average's and the shaper's."""
+        return self.trip.duration + self.smoothing + self.impulses[-1][0]
+
+    @property
+    def end_time(self) -> float:
+        """When the reference is at rest at the destination [s]."""
+        return self.trip.start_time + self.duration
+
+    def at(self, time: float) -> Motion:
+        """The reference at `time` [s]; at rest before the trip begins and after it ends."""
+        if time >= self.end_time:
+            return Motion(self.destination)
+        if len(self.impulses) == 1:
+            return self._smoothed(time)
+        moved = [(share, self._smoothed(time - delay)) for delay, share in self.impulses]
+        return Motion(
+            self.origin + sum(share * (one.position - self.origin) for share, one in moved),
+            sum(share * one.velocity for share, one in moved),
+            sum(share * one.acceleration for share, one in moved),
+            sum(share * one.jerk for share, one in moved),
+        )
+
+    def _smoothed(self, time: float) -> Motion:
+        S = self.smoothing
+        now = self.trip.at(time)
+        if S == 0.0:
+            return now
+        then = self.trip.at(time - S)
+        return Motion(
+            self.origin + (self.trip.gone(time) - self.trip.gone(time - S)) / S,
+            (now.position - then.position) / S,
+            (now.velocity - then.velocity) / S,
+            (now.acceleration - then.acceleration) / S,
+        )
+
+
+def course(drive: Drive, trip: Trip) -> Course:
+    """The course of a planned trip with the drive's curve, smoothing and shaper; a trip of no way has none of these."""
+    origin, destination = trip.origin, trip.destination
+    if origin == destination:
+        return Course(trip)
+    chosen = curved(drive.curve, drive.profile, origin, destination, trip.start_time) if drive.curve.used else trip
+    return Course(chosen, drive.profile.smoothing, impulses(drive.shaper, (origin, destination), drive.shaft.height))
+
+
+def first_course(drive: Drive) -> Course:
+    """The course of the drive's first trip."""
+    return course(drive, plan(drive.profile, drive.trip.start_position, drive.trip.destination, drive.trip.start_time))

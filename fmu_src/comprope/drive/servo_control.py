@@ -1,0 +1,75 @@
+"""The servo: position and speed control on the motor's encoder, designed and sampled with python-control.
+
+    v* = K_x (x_ref - s) + k_v v_ref                     position loop, K_x = position_bandwidth
+    f  = K_p (v* - v_s) + K_i int (v* - v_s) dt + k_a M a_ref
+
+On rigid ropes the hoist is the mass M (`moving_mass`), and the gains place the speed loop's poles at
+p^2 + 2 damping bandwidth p + bandwidth^2. The encoder sits on the sheave that the motor turns, so
+the ropes' resonances come with an antiresonance each and take no phase; the car follows the rim within the
+stretch of its rope, m_c a L_c / EA.
+"""
+
+from dataclasses import dataclass
+
+import control
+
+from .hoist_dynamics import moving_mass
+from .parameters import Drive
+from .s_curve import Motion
+
+
+@dataclass(frozen=True)
+class SpeedControl:
+    """The sampled proportional-integral law: force = gain e + out z, next z = z + into e; e is the speed error [m/s]."""
+
+    gain: float
+    into: float
+    out: float
+
+
+@dataclass(frozen=True)
+class Law:
+    """The sampled controller; forces at the rim [N]."""
+
+    speed: SpeedControl
+    position_gain: float
+    velocity_feedforward: float
+    acceleration_feedforward: float  # N per m/s2
+
+    def force(
+        self, integral: float, reference: Motion, way: float, velocity: float, limits: tuple[float, float]
+    ) -> tuple[float, float]:
+        """The motor's force [N] and the next integral, from the encoder's `way` [m] and `velocity` [m/s].
+
+        The force stays within `limits`; while it cannot, an error that would push it further is not integrated.
+        """
+        wanted = self.position_gain * (reference.position - way) + self.velocity_feedforward * reference.velocity
+        error = wanted - velocity
+        force = self.speed.gain * error + self.speed.out * integral + self.acceleration_feedforward * reference.acceleration
+        limited = min(max(force, limits[0]), limits[1])
+        if (force - limited) * error > 0.0:
+            return limited, integral
+        return limited, integral + self.speed.into * error
+
+
+def continuous_speed_control(drive: Drive) -> control.StateSpace:
+    """K_p + K_i/p from speed error [m/s] to force at the rim [N], by pole placement on rigid ropes."""
+    mass, bandwidth = moving_mass(drive), drive.servo.speed_bandwidth
+    proportional = 2.0 * drive.servo.speed_damping * bandwidth * mass
+    return control.ss(0.0, 1.0, bandwidth**2 * mass, proportional, inputs="e", outputs="f", states="z", name="speed control")
+
+
+def sampled_speed_control(drive: Drive) -> control.StateSpace:
+    """The speed control at the sample period, by Tustin's rule."""
+    return control.sample_system(continuous_speed_control(drive), drive.servo.sample_period, method="tustin")
+
+
+def design(drive: Drive) -> Law:
+    """The controller that the drive runs."""
+    pi, servo = sampled_speed_control(drive), drive.servo
+    return Law(
+        SpeedControl(pi.D.item(), pi.B.item(), pi.C.item()),
+        servo.position_bandwidth,
+        servo.velocity_feedforward,
+        servo.acceleration_feedforward * moving_mass(drive),
+    )

@@ -1,0 +1,108 @@
+"""What a model offers to be driven through FMI: named variables, and engines that step."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, Protocol
+
+from ..quantities import Component, quantities
+
+Kind = Literal["real", "integer", "boolean", "string"]
+Role = Literal["parameter", "input", "output"]
+Value = float | int | bool | str
+
+TYPES: dict[str, type] = {"real": float, "integer": int, "boolean": bool, "string": str}
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One variable of a model, in SI units.
+
+    A parameter is fixed once the run has started. Parameters and inputs have a start value.
+    `depends_on` names, for an output, the inputs it follows at once, without a step in between.
+    """
+
+    name: str
+    kind: Kind
+    role: Role
+    help: str
+    unit: str = "1"
+    start: Value | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    nominal: float | None = None
+    depends_on: tuple[str, ...] = ()
+    display_unit: str | None = None
+
+    @property
+    def variability(self) -> str:
+        """Variability in the words of FMI."""
+        if self.role == "parameter":
+            return "fixed"
+        return "continuous" if self.kind == "real" else "discrete"
+
+    def cast(self, value: Any) -> Value:
+        """The value as the plain Python type of this variable."""
+        return TYPES[self.kind](value)
+
+
+class Engine(Protocol):
+    """One instance of a model after its parameters are known; it owns its whole state."""
+
+    def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
+        """Advance from `time` to `time + dt` [s]; raises a `CompropeError` that says what, where and when."""
+
+    def outputs(self) -> Mapping[str, Any]:
+        """Every output by name, at the time reached."""
+
+    def get_state(self) -> bytes:
+        """The whole state, enough to go on bit for bit in another process."""
+
+    def set_state(self, state: bytes) -> None:
+        """Restore what `get_state` gave to an engine with the same parameters."""
+
+
+@dataclass(frozen=True)
+class ModelInterface:
+    """All that the face and the builder need to know of a model.
+
+    `create(parameters, inputs, start_time)` makes an engine from values by name; it raises
+    `InputError` with one sentence that holds all problems, joined by "; ".
+    `stop_time` and `step_size` [s] are what an importer uses when told nothing else. `pictures` are SVG files that show
+    what the variables are. `motion(time)` gives real inputs by name for the run that is kept as a reference, over 4 s; others
+    hold their start values.
+    """
+
+    name: str
+    description: str
+    variables: tuple[Variable, ...]
+    create: Callable[[Mapping[str, Any], Mapping[str, Any], float], Engine]
+    stop_time: float = 10.0
+    step_size: float = 0.001
+    pictures: tuple[Path, ...] = ()
+    motion: Callable[[float], Mapping[str, float]] = lambda _time: {}
+
+    def of_role(self, role: Role) -> tuple[Variable, ...]:
+        """The variables of one role, in their order."""
+        return tuple(variable for variable in self.variables if variable.role == role)
+
+
+def parameters_of(prefix: str, component: type[Component], values: Mapping[str, float]) -> tuple[Variable, ...]:
+    """The declared quantities of a component as parameters `prefix.name`.
+
+    `values` gives start values by quantity name; what it lacks starts at its neutral value.
+    """
+    return tuple(
+        Variable(
+            name=f"{prefix}.{one.name}",
+            kind="real",
+            role="parameter",
+            help=one.help,
+            unit=one.unit,
+            start=float(values.get(one.name, one.neutral)),
+            minimum=one.minimum,
+            maximum=one.maximum,
+            nominal=one.nominal,
+        )
+        for one in quantities(component)
+    )

@@ -1,0 +1,157 @@
+"""A pythonfmu slave for any model: a thin skin around a `Run` that lets no error out untold."""
+
+import sys
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import Any, ClassVar, NoReturn, ParamSpec, TypeVar
+
+from pythonfmu import Boolean, Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real, String
+
+from . import error_reporting
+from .instance import Run
+from .model_interface import ModelInterface, Value, Variable
+from .pythonfmu_workarounds import keep_alive, leave_cleanly
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_FMI_TYPES = {"real": Real, "integer": Integer, "boolean": Boolean, "string": String}
+_INITIAL = {"parameter": Fmi2Initial.exact, "output": Fmi2Initial.calculated, "input": None}
+
+
+def slave_class(interface: ModelInterface) -> type["Face"]:
+    """The slave of a model; an FMU's script subclasses it under the model's name."""
+    return type("Slave", (Face,), {"interface": interface, "__doc__": interface.description})
+
+
+def guarded(method: Callable[P, R]) -> Callable[P, R]:
+    """Let nothing but a `SlaveError` out of a method that pythonfmu calls."""
+
+    @wraps(method)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            return method(*args, **kwargs)
+        except BaseException as error:
+            slave: Face = args[0]  # type: ignore[assignment]
+            slave.fail(error)
+
+    return call
+
+
+class Face(Fmi2Slave):
+    """One instance of a model as an FMI slave.
+
+    Whatever goes wrong raises a `SlaveError`, which importers see as fmi2Fatal (see `failure`), and
+    bars further steps and outputs until the instance is reset or an earlier state is restored.
+    """
+
+    interface: ClassVar[ModelInterface]
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        if "logger" in kwargs:  # inside an FMU
+            leave_cleanly(self.resources, type(self).__name__)
+            if self.resources in sys.path:  # put there to load us; all is imported by now
+                sys.path.remove(self.resources)
+        self._run = Run(self.interface)
+        for one in self.interface.variables:
+            self.register_variable(_declared(one), nested=False)
+
+    @guarded
+    def setup_experiment(self, start_time: float, stop_time: float | None = None, tolerance: float | None = None) -> None:
+        """Take over start and stop time [s]; accuracy is the affair of the model's own parameters."""
+        self._run.plan(start_time, stop_time)
+
+    @guarded
+    def exit_initialization_mode(self) -> None:
+        """Make the model from the values set; refuses impossible ones, all problems in one sentence."""
+        self._run.begin()
+
+    @guarded
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance the model by `step_size` [s]."""
+        self._run.step(current_time, step_size)
+        return True
+
+    @guarded
+    def get_real(self, vrs: Sequence[int]) -> list[Value]:
+        """Real values by reference."""
+        return self._run.read("real", vrs)
+
+    @guarded
+    def get_integer(self, vrs: Sequence[int]) -> list[Value]:
+        """Integer values by reference."""
+        return self._run.read("integer", vrs)
+
+    @guarded
+    def get_boolean(self, vrs: Sequence[int]) -> list[Value]:
+        """Boolean values by reference."""
+        return self._run.read("boolean", vrs)
+
+    @guarded
+    def get_string(self, vrs: Sequence[int]) -> list[Value]:
+        """Strings by reference."""
+        return self._run.read("string", vrs)
+
+    @guarded
+    def set_real(self, vrs: Sequence[int], values: Sequence[float]) -> None:
+        """Set Real values by reference, all or none."""
+        self._run.write("real", vrs, values)
+
+    @guarded
+    def set_integer(self, vrs: Sequence[int], values: Sequence[int]) -> None:
+        """Set Integer values by reference, all or none."""
+        self._run.write("integer", vrs, values)
+
+    @guarded
+    def set_boolean(self, vrs: Sequence[int], values: Sequence[bool]) -> None:
+        """Set Boolean values by reference, all or none."""
+        self._run.write("boolean", vrs, values)
+
+    @guarded
+    def set_string(self, vrs: Sequence[int], values: Sequence[str]) -> None:
+        """Set strings by reference, all or none."""
+        self._run.write("string", vrs, values)
+
+    @guarded
+    def _get_fmu_state(self) -> bytes:
+        return self._run.save(self._identity())
+
+    @guarded
+    def _set_fmu_state(self, state: bytes) -> None:
+        self._run.restore(state, self._identity())
+
+    # These two are called on the class, where there is no instance to keep alive after an
+    # exception (see `binary`); so states are bytes from the outset, checked when set.
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: bytes) -> bytes:
+        return state
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> bytes:
+        return state
+
+    def fail(self, error: BaseException) -> NoReturn:
+        """Report an error, bar further steps and outputs, and raise it as a `SlaveError`."""
+        what = error_reporting.sentence(error)
+        text = f"{self.interface.name} '{self.instance_name}' at t = {self._run.time:.9g} s: {what}"
+        if self._run.failure is None:
+            error_reporting.report(text)
+            self._run.failure = what
+        keep_alive(type(self), self, self.log_queue)
+        raise error_reporting.SlaveError(text) from None
+
+    def _identity(self) -> str:
+        """Model and package; inside an FMU the package is named by its content, so no other build has the same."""
+        return f"{self.interface.name} of {__name__.split('.')[0]}"
+
+
+def _declared(variable: Variable) -> Any:
+    return _FMI_TYPES[variable.kind](
+        variable.name,
+        causality=Fmi2Causality[variable.role],
+        variability=Fmi2Variability[variable.variability],
+        initial=_INITIAL[variable.role],
+        description=variable.help,
+    )

@@ -1,0 +1,80 @@
+"""Is a value, a step or an interface acceptable? Each problem is one sentence for the user."""
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from .model_interface import ModelInterface, Variable
+
+_TIME_TOLERANCE = 1e-6  # of a step: what importers that add up their steps drift by is far less
+
+
+def shown(value: Any, unit: str) -> str:
+    """A value with its unit, as in `0.5 m`."""
+    text = f"{value:.6g}" if isinstance(value, float) else repr(value)
+    return text if unit == "1" else f"{text} {unit}"
+
+
+def range_text(variable: Variable) -> str:
+    """What a variable accepts, as in `0.002 to 0.1 m is accepted`."""
+    low, high = variable.minimum, variable.maximum
+    if low is None and high is None:
+        return "a finite number is accepted"
+    unit = "" if variable.unit == "1" else f" {variable.unit}"
+    if low is None or high is None:
+        return f"at most {high:g}{unit} is accepted" if low is None else f"at least {low:g}{unit} is accepted"
+    return f"{low:g} to {high:g}{unit} is accepted"
+
+
+def finite_problem(variable: Variable, value: Any) -> str | None:
+    """A sentence if the value is not a finite number where one is needed."""
+    if variable.kind != "real" or math.isfinite(value):
+        return None
+    return f"{variable.role} {variable.name} = {value}: {range_text(variable)}"
+
+
+def range_problems(variables: Iterable[Variable], values: Mapping[str, Any]) -> list[str]:
+    """A sentence for each value that is not finite or not within the declared range."""
+    return [sentence for one in variables if (sentence := _range_problem(one, values[one.name]))]
+
+
+def _range_problem(variable: Variable, value: Any) -> str | None:
+    if variable.kind not in ("real", "integer"):
+        return None
+    low = -math.inf if variable.minimum is None else variable.minimum
+    high = math.inf if variable.maximum is None else variable.maximum
+    if math.isfinite(value) and low <= value <= high:
+        return None
+    return f"{variable.role} {variable.name} = {shown(value, variable.unit)}: {range_text(variable)} ({variable.help})"
+
+
+def step_problem(time: float, dt: float, reached: float, stop: float | None) -> str | None:
+    """A sentence if a step of `dt` from `time` cannot follow a run that has reached `reached` [s]."""
+    if not (math.isfinite(dt) and dt > 0.0):
+        return f"step size = {dt} s: a finite number above 0 is accepted"
+    if not abs(time - reached) <= _tolerance(time, dt):
+        return (
+            f"step from {time!r} s: the time reached is {reached!r} s, and only a step from there is accepted; "
+            "to go back, restore a saved state"
+        )
+    if stop is not None and time + dt > stop + _tolerance(time, dt):
+        return f"step to {time + dt!r} s: the stop time was set to {stop!r} s"
+    return None
+
+
+def _tolerance(time: float, dt: float) -> float:
+    return _TIME_TOLERANCE * dt + 8.0 * math.ulp(max(1.0, abs(time)))
+
+
+def interface_problems(interface: ModelInterface) -> list[str]:
+    """What is wrong with the declaration of a model's variables; for authors of models, while building."""
+    names = [one.name for one in interface.variables]
+    inputs = {one.name for one in interface.of_role("input")}
+    found = [f"{name}: declared more than once" for name in sorted({name for name in names if names.count(name) > 1})]
+    for one in interface.variables:
+        found += [f"{one.name}: depends on {other}, which is no input" for other in one.depends_on if other not in inputs]
+        if (one.start is None) != (one.role == "output"):
+            found.append(f"{one.name}: parameters and inputs, and only they, have a start value")
+        elif one.role != "output":
+            found += range_problems([one], {one.name: one.start})
+    return found

@@ -1,0 +1,107 @@
+"""Compile the face in C and link it with the kernels, for each system there is a compiler for."""
+
+import importlib.util
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+
+import fmpy
+
+from ..errors import InputError
+from .targets import TARGETS, Target
+
+FACE = Path(__file__).with_name("c")
+HEADERS = Path(fmpy.__file__).parent / "c-code"  # those of the FMI standard, under its BSD licence
+# Sums stay in the order in which they are written, as in the kernels; what is not exported stays out of other FMUs' way.
+_OPTIONS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-fno-sanitize=all", "-shared")
+
+
+def face_sources() -> dict[str, bytes]:
+    """The C files of the face by name."""
+    return {path.name: path.read_bytes() for pattern in ("*.c", "*.h") for path in sorted(FACE.glob(pattern))}
+
+
+def toolchain() -> str:
+    """What compiles here: zig and its version, or the system's own compiler."""
+    if _zig():
+        return f"zig {metadata.version('ziglang')}, for {systems(TARGETS)}"
+    return f"{_system_compiler()}, for this system only; `pip install ziglang` brings a compiler for {systems(TARGETS)}"
+
+
+def linkable() -> list[str]:
+    """The targets that can be linked here, by their names in TARGETS: all with zig, the present one otherwise."""
+    return list(TARGETS) if _zig() else [here()]
+
+
+def systems(targets: Iterable[str]) -> str:
+    """The systems of some targets, as in `Linux and Windows`."""
+    *most, last = dict.fromkeys(TARGETS[name].system for name in targets)
+    return f"{', '.join(most)} and {last}" if most else last
+
+
+def binaries(name: str, kernels: Mapping[str, bytes], generated: Mapping[str, str]) -> dict[str, bytes]:
+    """Binaries of the FMU `name` by target, from the kernels' machine code by target and generated C files."""
+    return {place: _linked(name, code, generated, TARGETS[place]) for place, code in kernels.items()}
+
+
+def _linked(name: str, kernels: bytes, generated: Mapping[str, str], target: Target) -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        stage = Path(folder)
+        files: dict[str, bytes] = {path: text.encode() for path, text in generated.items()} | face_sources()
+        for path, content in files.items():
+            (stage / path).write_bytes(content)
+        (stage / "kernels.o").write_bytes(kernels)
+        output = f"{name}.{target.extension}"
+        sources = sorted(path for path in files if path.endswith(".c"))
+        options = [*_OPTIONS, *_extras(target, output), "-I.", f"-I{HEADERS}"]
+        command = [*_compiler(target), *options, *sources, "kernels.o", "-o", output, "-lm"]
+        result = subprocess.run(command, cwd=stage, capture_output=True, text=True, check=False)
+        if result.returncode:
+            raise InputError(f"{output} cannot be linked for {target.folder}: {_last_error(result.stderr)}")
+        return (stage / output).read_bytes()
+
+
+def _last_error(text: str) -> str:
+    lines = [line.strip() for line in text.splitlines() if "error" in line.lower()] or text.strip().splitlines() or ["no message"]
+    return lines[0]
+
+
+def _extras(target: Target, output: str) -> Iterator[str]:
+    yield "-s"
+    if target.extension != "dll":
+        yield "-fPIC"
+    if target.extension == "dylib":
+        yield f"-Wl,-install_name,@rpath/{output}"
+    if target.extension == "so":
+        yield from (f"-Wl,-soname,{output}", "-Wl,-z,defs")  # the latter refuses what no library has, as other systems do
+
+
+def _compiler(target: Target) -> list[str]:
+    return [sys.executable, "-m", "ziglang", "cc", "-target", target.zig] if _zig() else [_system_compiler()]
+
+
+@cache
+def _zig() -> bool:
+    return importlib.util.find_spec("ziglang") is not None
+
+
+def _system_compiler() -> str:
+    found = next((name for name in ("cc", "gcc", "clang") if shutil.which(name)), None)
+    if found is None:
+        raise InputError("no C compiler: `pip install ziglang` brings one that compiles for every system")
+    return found
+
+
+def here() -> str:
+    """The name in TARGETS of the system this runs on."""
+    kind = "arm64" if platform.machine().lower() in ("arm64", "aarch64") else "x86_64"
+    name = {"linux": "linux", "win32": "windows", "darwin": f"macos-{kind}"}.get(sys.platform, sys.platform)
+    if name not in TARGETS or (kind == "arm64" and "arm64" not in name):
+        raise InputError(f"{sys.platform} on {platform.machine()}: binaries can be made for {', '.join(TARGETS)}")
+    return name

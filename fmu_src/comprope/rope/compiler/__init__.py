@@ -1,0 +1,1 @@
+"""Generation, compilation and caching of the functions that Python and C call."""

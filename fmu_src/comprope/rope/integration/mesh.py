@@ -1,0 +1,54 @@
+"""The mesh: number and natural length of the elements, corrected for the chords at the sheave."""
+
+from math import pi, sqrt
+
+from ..runtime.jit import kernel
+from ..runtime.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, K, M, R, slot
+from ..runtime.status import FINE, TOO_COARSE
+
+LENGTH = slot("rope.element_length")
+FEWEST = 16  # elements
+
+
+@kernel
+def rope_length(p):
+    """Natural length of the rope [m]."""
+    return 2.0 * p[PIT] + p[HEIGHT] + pi * p[R]
+
+
+@kernel
+def cut_off(p, l):
+    """By how much chords of length l are shorter than the rope where it bends on to the sheave and off it [m].
+
+    To second order in l the energy of the polygon differs from that of the rope by -T l^2 (2 L + A) / (48 R^2), where
+    T = M g / 2, L = (EI / T)^(1/2) is the length in which the free rope straightens, and A = (4 EI / k)^(1/4) that in
+    which it sinks into the groove. Its derivative by the sheave's weight 2 T is how much too low the sheave would hang,
+    l^2 (L + A) / (96 R^2): half of this length. From L = 2^(1/2) R on the rope hangs as a loop wider than the sheave, whose
+    length chords have right.
+    """
+    straightens, sinks = sqrt(2.0 * p[EI] / (p[M] * p[G])), sqrt(sqrt(4.0 * p[EI] / p[K]))
+    if straightens > sqrt(2.0) * p[R]:
+        return 0.0
+    return l * l * (straightens + sinks) / (48.0 * p[R] * p[R])
+
+
+@kernel
+def element_length(p, elements):
+    """Natural length of each element [m], so many on the whole rope."""
+    length = rope_length(p)
+    return (length - cut_off(p, length / elements)) / elements
+
+
+@kernel
+def divide(p):
+    """Set the length of whole elements that make up the rope; returns the number of nodes."""
+    elements = max(round(rope_length(p) / p[LENGTH]), FEWEST)
+    p[ELEMENT] = element_length(p, elements)
+    return elements + 1.0
+
+
+@kernel
+def coarse(p, told):
+    """Refuse elements too long to lie round the sheave; returns the kind of refusal."""
+    told[0], told[1] = p[LENGTH], p[R]
+    return TOO_COARSE if p[LENGTH] > 0.5 * p[R] else FINE

@@ -1,0 +1,171 @@
+"""Newmark-beta time step of eq. (1) and (2), solved by Newton's method.
+
+Acceleration a is the unknown; q and v follow from it by Newmark's rule with beta = (1 + alpha)^2 / 4
+and gamma = 1/2 + alpha, and the forces are weighted (1 - alpha) f_new + alpha f_old (Hilber, Hughes
+and Taylor 1977). alpha = 0 is the paper's rule (1/4, 1/2).
+
+The tangent is factored once per step and again only when the corrections do not shrink fast. A
+correction below `TOLERANCE` metres ends the iteration. A step that does not converge is restored and
+halved, up to `DEEPEST` times; what is accepted has always converged.
+"""
+
+from math import isfinite
+
+from ..linalg.block_band import factor, inwards, outwards
+from ..linalg.bordered_band import factor_zone, fill, solve_zone
+from ..mechanics.end_conditions import place_ends
+from ..mechanics.equations_of_motion import forces, node_mass, tangent_band
+from ..mechanics.sheave_contact import reach
+from ..runtime.array_layout import FIRST, LAST
+from ..runtime.jit import kernel
+from ..runtime.parameter_vector import ALPHA, ELEMENT, J, M, R
+
+TOLERANCE = 1e-8  # m
+ITERATIONS = 12
+SLOW = 0.1  # a correction that shrinks by less than this asks for a new tangent
+CARRIED = 32  # nodes beside the groove that still feel its curvature
+DEEPEST = 12  # halvings of one step
+
+# Entries of `count`: what the run has cost so far, and where a failed step went wrong.
+STEPS, NEWTON, FACTORED, HALVED, WORST = range(5)
+COUNTS = 5
+
+
+@kernel
+def predict(n, p, h, q0, v0, a0, q, v, a):
+    """Start of the iteration: the acceleration stays what it was."""
+    for i in range(2 * (n + 1)):
+        a[i] = a0[i]
+        v[i] = v0[i] + h * a0[i]
+        q[i] = q0[i] + h * (v0[i] + 0.5 * h * a0[i])
+
+
+@kernel
+def carry(n, p, h, q0, v0, a0, q, v, a, touch):
+    """Start of the iteration for the nodes near the sheave, which the rope carries along its own shape.
+
+    That shape hardly changes in a step, but a node runs along it by a good part of an element, and its
+    acceleration changes from nothing to v^2 / R on the way. So each node starts with the acceleration
+    of the place that it comes to.
+    """
+    m, alpha, per_l = n + 1, p[ALPHA], 1.0 / p[ELEMENT]
+    beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
+    reach(n, p, q0, q0[n], 0.0, touch)
+    first, last = max(int(touch[FIRST]) - CARRIED, 1), min(int(touch[LAST]) + CARRIED, n - 2)
+    for i in range(first, last + 1):
+        along = 0.5 * ((q0[i + 1] - q0[i - 1]) * v0[i] + (q0[m + i + 1] - q0[m + i - 1]) * v0[m + i]) * per_l
+        place = min(max(i + along * h * per_l, 1.0), n - 2.0)
+        k = min(int(place), n - 3)
+        s = place - k
+        for c in (0, m):
+            change = a0[c + k] + s * (a0[c + k + 1] - a0[c + k]) - a0[c + i]
+            a[c + i] += change
+            v[c + i] += gamma * h * change
+            q[c + i] += beta * h * h * change
+
+
+@kernel
+def residual(n, p, a, f, f0, r):
+    """Set r = (1 - alpha) f + alpha f_old - M a; prescribed ends have none."""
+    m, alpha, mass = n + 1, p[ALPHA], node_mass(p)
+    for i in range(1, n - 1):
+        r[i] = (1.0 - alpha) * f[i] + alpha * f0[i] - mass * a[i]
+        r[m + i] = (1.0 - alpha) * f[m + i] + alpha * f0[m + i] - mass * a[m + i]
+    r[n] = (1.0 - alpha) * f[n] + alpha * f0[n] - p[M] * a[n]
+    r[m + n] = (1.0 - alpha) * f[m + n] + alpha * f0[m + n] - p[J] * a[m + n]
+    for i in (0, n - 1):
+        r[i] = 0.0
+        r[m + i] = 0.0
+
+
+@kernel
+def correct(n, p, h, r, q, v, a, count):
+    """Add the correction r of the acceleration; returns the largest change of position [m]."""
+    m, alpha = n + 1, p[ALPHA]
+    beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
+    largest = 0.0
+    for i in range(2 * m):
+        change = beta * h * h * r[i]
+        a[i] += r[i]
+        v[i] += gamma * h * r[i]
+        q[i] += change
+        size = abs(change) if i < m + n else abs(change) * p[R]
+        if not size <= largest:
+            largest = size
+            count[WORST] = i
+    return largest
+
+
+@kernel
+def renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch):
+    """Assemble and factor the tangent of the last evaluation of the forces; r is carried to the zone.
+
+    The sheave's column of the factor keeps which nodes the zone begins and ends with.
+    """
+    alpha = p[ALPHA]
+    ck = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h
+    cc = (1.0 - alpha) * (0.5 + alpha) * h
+    first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
+    tangent_band(n, t, p, q, v, w, A, 1.0, ck, cc)
+    factor(n, A, L, r, first, last)
+    fill(n, A, Z, B, first, last)
+    factor_zone(2 * (last - first + 1), B)
+    L[n], L[2 * n + 1] = first, last
+
+
+@kernel
+def attempt(
+    n, t, h, p, path, dt, s, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, count,
+):  # fmt: skip
+    """Try one step of length h that ends at time t; s is that time as a fraction of the path's dt.
+
+    Returns True when Newton's iteration has converged.
+    """
+    alpha = p[ALPHA]
+    ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
+    predict(n, p, h, q0, v0, a0, q, v, a)
+    carry(n, p, h, q0, v0, a0, q, v, a, touch)
+    place_ends(n, t, p, path, dt, s, q, v, a)
+    before, fresh, first, last = 1e300, True, 0, 0
+    for _ in range(ITERATIONS):
+        forces(n, t, p, q, v, w, f, touch, h0, h1, power, Z, ck, cc, fresh)
+        residual(n, p, a, f, f0, r)
+        if fresh:
+            renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch)
+            first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
+            count[FACTORED] += 1
+        else:
+            inwards(n, L, r, first, last)
+        solve_zone(n, B, r, first, last)
+        outwards(n, L, r, first, last)
+        change = correct(n, p, h, r, q, v, a, count)
+        count[NEWTON] += 1
+        if not isfinite(change):
+            return False
+        if change < TOLERANCE:
+            settle_forces(n, p, a, f0, f)
+            return True
+        fresh = change > SLOW * before
+        before = change
+    return False
+
+
+@kernel
+def settle_forces(n, p, a, f0, f):
+    """Forces that balance the accepted accelerations exactly, from the weighted balance of the step.
+
+    The ends keep the forces of the last evaluation.
+    """
+    m, alpha, mass = n + 1, p[ALPHA], node_mass(p)
+    for i in range(1, n - 1):
+        f[i] = (mass * a[i] - alpha * f0[i]) / (1.0 - alpha)
+        f[m + i] = (mass * a[m + i] - alpha * f0[m + i]) / (1.0 - alpha)
+    f[n] = (p[M] * a[n] - alpha * f0[n]) / (1.0 - alpha)
+    f[m + n] = (p[J] * a[m + n] - alpha * f0[m + n]) / (1.0 - alpha)
+
+
+@kernel
+def copy(size, source, target):
+    """Copy `size` numbers."""
+    for i in range(size):
+        target[i] = source[i]

@@ -1,0 +1,85 @@
+"""The suspended shape: rope and sheave at rest, without friction, for any tension.
+
+Newton's method on f(q) = 0 with a mass that holds each iterate near the last one and vanishes as the
+residual falls (pseudo-transient continuation), so that it also finds loops too light to wrap the
+sheave. The sheave's angle stays where it is: without friction nothing turns it.
+"""
+
+from math import isfinite
+
+from ..linalg.block_band import factor, outwards
+from ..linalg.bordered_band import factor_zone, fill, solve_zone
+from ..mechanics.equations_of_motion import forces, tangent_band
+from ..runtime.array_layout import COLUMNS, CONTACT, DYY, FIRST, LAST, ROWS
+from ..runtime.jit import kernel
+
+ENOUGH = 1e-11  # m, the last correction
+TRIALS = 400
+LARGEST = 0.25  # of an element: the longest move of one iteration
+
+
+@kernel
+def rest(n, p, q, v, w, f, touch, h0, h1, power, A, L, B, Z, r, element):
+    """Move q to equilibrium, v staying zero; returns the number of iterations, or -1 where none is found."""
+    m, mass, angle = n + 1, 1.0, q[n + 1 + n]
+    for trial in range(TRIALS):
+        forces(n, 0.0, p, q, v, w, f, touch, h0, h1, power, Z, 1.0, 0.0, True)
+        first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
+        tangent_band(n, 0.0, p, q, v, w, A, mass, 1.0, 0.0)
+        balance(n, f, r)
+        lock_angle(n, A, Z)
+        factor(n, A, L, r, first, last)
+        fill(n, A, Z, B, first, last)
+        factor_zone(2 * (last - first + 1), B)
+        solve_zone(n, B, r, first, last)
+        outwards(n, L, r, first, last)
+        largest = 0.0
+        for i in range(2 * m):
+            if not abs(r[i]) <= largest:
+                largest = abs(r[i])
+        if not isfinite(largest):
+            return -1.0
+        scale = min(1.0, LARGEST * element / largest) if largest > 0.0 else 1.0
+        for i in range(2 * m):
+            q[i] += scale * r[i]
+        q[m + n] = angle
+        if largest < ENOUGH:
+            return trial + 1.0
+        mass = relax(mass, largest, element)
+    return -1.0
+
+
+@kernel
+def relax(mass, largest, element):
+    """The next pseudo-mass: it shrinks fast while moves are small and grows back when they are not."""
+    if largest < 1e-3 * element:
+        return 0.0
+    if largest < 0.25 * element:
+        return mass * 0.3
+    return min(mass * 2.0, 1e8)
+
+
+@kernel
+def balance(n, f, r):
+    """Residual of equilibrium: the forces, none at the prescribed ends nor on the sheave's angle."""
+    m = n + 1
+    for i in range(2 * m):
+        r[i] = f[i]
+    for i in (0, n - 1):
+        r[i] = 0.0
+        r[m + i] = 0.0
+    r[m + n] = 0.0
+
+
+@kernel
+def lock_angle(n, A, Z):
+    """Keep the sheave's angle: its row and column of the contact tangent go, its diagonal becomes one."""
+    m = n + 1
+    for i in range(n):
+        Z[(COLUMNS + 1) * m + i] = 0.0
+        Z[(COLUMNS + 3) * m + i] = 0.0
+        Z[(ROWS + 2) * m + i] = 0.0
+        Z[(ROWS + 3) * m + i] = 0.0
+    for k in range(1, 4):
+        Z[CONTACT * m + k] = 0.0
+    A[DYY * m + n] = 1.0

@@ -1,0 +1,1 @@
+"""Direct solvers for the block-banded tangent with the border that contact and sheave add."""

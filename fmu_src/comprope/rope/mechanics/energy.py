@@ -1,0 +1,95 @@
+"""The energy ledger: what is stored, what the ends and effects put in, what each damping takes out.
+
+    residual = stored energy - its value at the start - work of ends and effects + losses
+
+vanishes for an exact integration. Works are summed by the trapezoidal rule over the accepted steps.
+"""
+
+from ..runtime.array_layout import BEND_RATE, CURVATURE, ELASTIC, FRICTION_LOSS, INVERSE, NORMAL_LOSS, TX, TY
+from ..runtime.jit import kernel
+from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
+
+STORED = ("kinetic", "gravity", "tension", "bending", "contact", "sheave")
+SPENT = ("axial_damping", "bending_damping", "external_damping", "contact_damping", "friction")
+
+KINETIC, GRAVITY, STRAIN, BENT, CONTACT_ENERGY, SHEAVE = range(6)
+ENDS_WORK = 6
+LOSSES = 7
+EFFECTS = LOSSES + len(SPENT)  # works of the effects follow, one each
+END_FORCES = 4  # at the start of the array of powers, before losses and effects
+
+
+@kernel
+def store(n, p, q, v, w, touch, E):
+    """Set the stored energies in E [J]: kinetic, gravity, tension, bending, contact, sheave."""
+    m, l, kinetic, low, strain, bent = n + 1, p[ELEMENT], 0.0, 0.0, 0.0, 0.0
+    for i in range(n):
+        share = 0.5 if i == 0 or i == n - 1 else 1.0
+        kinetic += share * (v[i] * v[i] + v[m + i] * v[m + i])
+        low += share * q[i]
+    for e in range(n - 1):
+        stretch = 1.0 / w[INVERSE * m + e] - l
+        strain += stretch * stretch
+    for i in range(1, n - 1):
+        bent += w[CURVATURE * m + i] * w[CURVATURE * m + i]
+    E[KINETIC] = 0.5 * p[RHO] * l * kinetic
+    E[GRAVITY] = -p[RHO] * l * p[G] * low - p[M] * p[G] * q[n]
+    E[STRAIN] = 0.5 * p[EA] / l * strain
+    E[BENT] = 0.5 * p[EI] * l * bent
+    E[CONTACT_ENERGY] = touch[ELASTIC]
+    E[SHEAVE] = 0.5 * (p[M] * v[n] * v[n] + p[J] * v[m + n] * v[m + n])
+
+
+@kernel
+def losses(n, p, v, w, touch, power, effects, P):
+    """Set P: forces of the holders on the ends come first, then the losses and effects' powers [W]."""
+    m, l, axial, bending, drag = n + 1, p[ELEMENT], 0.0, 0.0, 0.0
+    for e in range(n - 1):
+        rate = w[TX * m + e] * (v[e + 1] - v[e]) + w[TY * m + e] * (v[m + e + 1] - v[m + e])
+        axial += rate * rate
+    for i in range(1, n - 1):
+        bending += w[BEND_RATE * m + i] * w[BEND_RATE * m + i]
+        drag += v[i] * v[i] + v[m + i] * v[m + i]
+    P[END_FORCES] = p[CA] / l * axial
+    P[END_FORCES + 1] = p[CB] * l * bending
+    P[END_FORCES + 2] = p[CE] * l * drag
+    P[END_FORCES + 3] = touch[NORMAL_LOSS]
+    P[END_FORCES + 4] = touch[FRICTION_LOSS]
+    for k in range(effects):
+        P[END_FORCES + 5 + k] = power[k]
+
+
+@kernel
+def hold_forces(n, p, a, f, P):
+    """Set the first entries of P to the forces [N] that the holders of the ends exert on them."""
+    m, half = n + 1, 0.5 * p[RHO] * p[ELEMENT]
+    P[0] = half * a[0] - f[0]
+    P[1] = half * a[m] - f[m]
+    P[2] = half * a[n - 1] - f[n - 1]
+    P[3] = half * a[m + n - 1] - f[m + n - 1]
+
+
+@kernel
+def open_ledger(n, p, q, v, a, f, w, touch, power, effects, P, E, start):
+    """Set stored energies and powers at the start; start[0] becomes the sum of what is stored."""
+    store(n, p, q, v, w, touch, E)
+    losses(n, p, v, w, touch, power, effects, P)
+    hold_forces(n, p, a, f, P)
+    start[0] = E[KINETIC] + E[GRAVITY] + E[STRAIN] + E[BENT] + E[CONTACT_ENERGY] + E[SHEAVE]
+
+
+@kernel
+def tally(n, p, h, q0, q, v, a, f, w, touch, power, effects, P0, P, E):
+    """Bring the ledger E up to date after an accepted step of length h; P0 takes over P."""
+    m = n + 1
+    store(n, p, q, v, w, touch, E)
+    losses(n, p, v, w, touch, power, effects, P)
+    hold_forces(n, p, a, f, P)
+    moved = 0.5 * (P0[0] + P[0]) * (q[0] - q0[0]) + 0.5 * (P0[1] + P[1]) * (q[m] - q0[m])
+    moved += 0.5 * (P0[2] + P[2]) * (q[n - 1] - q0[n - 1])
+    moved += 0.5 * (P0[3] + P[3]) * (q[m + n - 1] - q0[m + n - 1])
+    E[ENDS_WORK] += moved
+    for k in range(5 + effects):
+        E[LOSSES + k] += 0.5 * h * (P0[END_FORCES + k] + P[END_FORCES + k])
+    for k in range(END_FORCES + 5 + effects):
+        P0[k] = P[k]

@@ -1,0 +1,164 @@
+"""Model files: a rope model as TOML, read with all its problems reported at once, written whole or not at all."""
+
+import os
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from pydantic import ValidationError
+
+from ..atomic_files import text_of, whole_file
+from ..errors import InputError
+from ..validation_messages import problems
+from .effects import RopeModel, model_type, user_effects
+
+_NO_KEY = "not the key of a single value in this model, such as sheave.mass or sensors[1].height"
+
+
+def load(path: str | Path, *, allow_code: bool = False) -> RopeModel:
+    """The rope model in a TOML file; `allow_code` is consent to run the files that it names under `own_effects`.
+
+    Raises `InputError` naming every problem of the file, one line each: key, value and what is accepted.
+    """
+    table = read_toml(path)
+    if files := _own_files(table):
+        table["own_effects"] = _admitted([Path(path).parent / file for file in files], str(path), allow_code)
+    return validated(table, str(path))
+
+
+def dump(model: RopeModel, path: str | Path, comment: str = "") -> None:
+    """Write the model as a TOML file that `load` reads back equal; `comment` heads the file.
+
+    The file appears whole or not at all. Raises `InputError` if it cannot be written.
+    """
+    import tomli_w  # needed for writing only, so that an FMU, which reads, does without it
+
+    table = as_table(model)
+    if model.own_effects:
+        table["own_effects"] = [_seen_from(Path(path).resolve().parent, file) for file in model.own_effects]
+    sensors = table.pop("sensors", [])
+    blocks = [tomli_w.dumps(table)] + [f"\n[[sensors]]\n{tomli_w.dumps(sensor)}" for sensor in sensors]
+    printable = ("".join(letter if letter.isprintable() else " " for letter in line) for line in comment.splitlines())
+    heading = "".join(f"# {line}".rstrip() + "\n" for line in printable)
+    with whole_file(path) as temporary:
+        temporary.write_text(heading + "".join(blocks), encoding="utf-8", newline="\n")
+
+
+def with_changes(model: RopeModel, changes: Mapping[str, Any], source: str = "change") -> RopeModel:
+    """The model with some values replaced, e.g. `{"sheave.mass": 120.0, "effects.air_drag.drag_coefficient": 1.0}`.
+
+    A key is the path of a value in the model file; `sensors[1].height` is the first sensor's. Naming
+    a parameter of an absent effect brings the effect in. Raises `InputError` as `load` does, each
+    line begun by `source`, which tells where the changes come from.
+    """
+    table = as_table(model)
+    for key, value in changes.items():
+        try:
+            _assign(table, _path(key), value)
+        except LookupError:
+            raise InputError(f"{source}: {key} = {value}: {_NO_KEY}") from None
+    return validated(table, source)
+
+
+def validated(table: Mapping[str, Any], source: str) -> RopeModel:
+    """The model a table describes; `source` begins each line of the `InputError` if it describes none.
+
+    Files with effects of a user's own stand in it by their absolute paths, or relative to where the program runs.
+    """
+    files = _own_files(table)
+    if unknown := [file for file in files if file not in user_effects.FILES]:
+        files = [*(file for file in files if file in user_effects.FILES), *_admitted(map(Path, unknown), source)]
+        table = {**table, "own_effects": files}
+    kind = model_type(files)
+    try:
+        return kind.model_validate(_frozen(table))
+    except ValidationError as error:
+        raise InputError("\n".join(f"{source}: {line}" for line in problems(error, kind))) from None
+
+
+def as_table(model: RopeModel) -> dict[str, Any]:
+    """The model as nested plain tables, absent effects left out, as it stands in a model file."""
+    table = model.model_dump(exclude_none=True)
+    table |= {"sensors": list(table["sensors"]), "own_effects": list(model.own_effects)}
+    return {key: value for key, value in table.items() if value not in ({}, [])}
+
+
+def bundle(model: RopeModel) -> dict[str, bytes]:
+    """A folder for an FMU, by the files' paths in it: model.toml and the files of own effects that it names."""
+    with TemporaryDirectory() as folder:
+        inside = Path(folder).resolve()
+        renamed = [inside / "own_effects" / f"{k}_{Path(file).name}" for k, file in enumerate(model.own_effects, 1)]
+        dump(model.model_copy(update={"own_effects": tuple(map(str, renamed))}), inside / "model.toml")
+        files = {"model.toml": (inside / "model.toml").read_bytes()}
+    for old, new in zip(model.own_effects, renamed, strict=True):
+        files[new.relative_to(inside).as_posix()] = user_effects.FILES[old].text.encode()
+    return files
+
+
+def _own_files(table: Mapping[str, Any]) -> list[str]:
+    """What stands under own_effects; nothing where that is no list of texts, which validation will tell."""
+    files = table.get("own_effects", ())
+    return list(files) if isinstance(files, list | tuple) and all(isinstance(one, str) for one in files) else []
+
+
+def _admitted(files: Iterable[Path], source: str, allow_code: bool = False) -> list[str]:
+    """Files of own effects, run where they have not been, by their absolute paths."""
+    found, wrong = [str(file.resolve()) for file in files], []
+    for file in found:
+        try:
+            user_effects.read(Path(file), allow_code=allow_code)
+        except InputError as error:
+            wrong.append(f"{source}: own_effects: {error}")
+    if wrong:
+        raise InputError("\n".join(wrong))
+    return found
+
+
+def _seen_from(folder: Path, file: str) -> str:
+    """The path of a file relative to a folder; as it is where there is no way from one to the other, on another drive."""
+    try:
+        return Path(os.path.relpath(file, folder)).as_posix()
+    except ValueError:
+        return file
+
+
+def read_toml(path: str | Path) -> dict[str, Any]:
+    """The tables of a TOML file; raises `InputError` if it is absent, unreadable, not UTF-8 or not TOML."""
+    try:
+        return tomllib.loads(text_of(path))
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: not valid TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{path}: not valid TOML: nested too deeply") from None
+
+
+def _frozen(value: Any) -> Any:
+    """The same tables with tuples for lists, as the frozen components want them."""
+    if isinstance(value, Mapping):
+        return {key: _frozen(item) for key, item in value.items()}
+    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+
+
+def _path(key: str) -> list[str | int]:
+    """`sensors[1].height` as `["sensors", 0, "height"]`."""
+    if not re.fullmatch(r"\w+(\[[1-9]\d*\])?(\.\w+(\[[1-9]\d*\])?)*", key):
+        raise LookupError(key)
+    return [int(part[1:]) - 1 if part.startswith("[") else part for part in re.findall(r"\[\d+|\w+", key)]
+
+
+def _assign(table: dict[str, Any], path: list[str | int], value: Any) -> None:
+    """Put a value at a path, making tables on the way; `LookupError` where the path leads nowhere."""
+    place: Any = table
+    for part in path[:-1]:
+        if isinstance(place, list) and isinstance(part, int):
+            place = place[part]
+        elif isinstance(place, dict) and isinstance(part, str):
+            place = place.setdefault(part, {})
+        else:
+            raise LookupError(path)
+    if not isinstance(place, dict):
+        raise LookupError(path)
+    place[path[-1]] = value

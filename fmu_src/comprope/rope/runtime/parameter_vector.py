@@ -1,0 +1,59 @@
+"""The flat parameter vector that the kernels read: one slot for each declared quantity.
+
+Slots are compile-time constants in the kernels. Base components come first, then effects in the
+order in which they register; `element` is derived, since the mesh makes the natural length exact.
+"""
+
+from collections.abc import Mapping
+
+from ...errors import InputError
+from ...quantities import Component, Quantity, quantities
+from ...validation_messages import suggestion
+from ..parameters import Contact, Rope, Shaft, Sheave, Solver
+
+COMPONENTS: dict[str, type[Component]] = {"shaft": Shaft, "rope": Rope, "sheave": Sheave, "contact": Contact, "solver": Solver}
+
+DECLARED: dict[str, Quantity] = {}
+
+
+def declare(prefix: str, component: type[Component]) -> None:
+    """Give every quantity of `component` a slot, named `prefix.quantity`."""
+    DECLARED.update({f"{prefix}.{one.name}": one for one in quantities(component)})
+
+
+for _prefix, _component in COMPONENTS.items():
+    declare(_prefix, _component)
+DECLARED["derived.element"] = Quantity("element", "m", "exact element length", 0.0, 10.0, 0.05, 0.05, None)
+
+
+def slot(name: str) -> int:
+    """Index of a quantity in the parameter vector; raises `InputError` for one that is not declared."""
+    if name not in DECLARED:
+        raise InputError(f"{name}: no such quantity; {suggestion(name, list(DECLARED))}")
+    return list(DECLARED).index(name)
+
+
+def vector(values: Mapping[str, float]) -> list[float]:
+    """Parameter vector from values by name; what is not named takes its neutral value."""
+    return [float(values.get(name, one.neutral)) for name, one in DECLARED.items()]
+
+
+G = slot("shaft.gravity")
+RHO = slot("rope.mass_per_length")
+DIAMETER = slot("rope.diameter")
+EA = slot("rope.axial_stiffness")
+EI = slot("rope.bending_stiffness")
+CA = slot("rope.axial_damping")
+CB = slot("rope.bending_damping")
+CE = slot("rope.external_damping")
+M = slot("sheave.mass")
+R = slot("sheave.radius")
+J = slot("sheave.inertia")
+K = slot("contact.stiffness")
+C = slot("contact.damping")
+MU = slot("contact.friction_coefficient")
+V0 = slot("contact.slip_velocity")
+ALPHA = slot("solver.numerical_damping")
+PIT = slot("shaft.pit")
+HEIGHT = slot("shaft.height")
+ELEMENT = slot("derived.element")

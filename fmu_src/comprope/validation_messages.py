@@ -1,0 +1,92 @@
+"""Say what is wrong with a user's table in one line per problem, in the words of the declarations."""
+
+import types
+from collections.abc import Sequence
+from difflib import get_close_matches
+from typing import Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+
+from .quantities import quantities
+
+Location = Sequence[str | int]
+
+
+def problems(error: ValidationError, component: type[BaseModel]) -> list[str]:
+    """One line `<key> = <value>: <what is accepted>` for each problem of a table refused by `component`."""
+    return [_sentence(component, dict(item)) for item in error.errors(include_url=False)]
+
+
+def key_text(location: Location) -> str:
+    """The location of a value as a dotted key; places in lists count from 1, as in `sensors[1].height`."""
+    text = ""
+    for part in location:
+        text += f"[{part + 1}]" if isinstance(part, int) else f".{part}"
+    return text.lstrip(".")
+
+
+def accepted(owner: type[BaseModel], name: str) -> str:
+    """What the field `name` of a component accepts: range and unit, choices or form, and its line of help."""
+    field = owner.model_fields[name]
+    number = next((item for item in quantities(owner) if item.name == name), None)
+    if number:
+        unit = "" if number.unit == "1" else f" {number.unit}"
+        return f"a number from {number.minimum:g} to {number.maximum:g}{unit} is accepted ({number.help})"
+    if get_origin(field.annotation) is Literal:
+        choices = " or ".join(f'"{choice}"' for choice in get_args(field.annotation))
+        return f"{choices} is accepted ({field.description})"
+    nested = _component_in(field.annotation)
+    if nested is not None:
+        wanted = "a list of tables" if get_origin(field.annotation) is tuple else "a table"
+        return f"{wanted} with the keys {', '.join(nested.model_fields)} is accepted"
+    return f"accepted is: {field.description}"
+
+
+def suggestion(unknown: str, known: Sequence[str]) -> str:
+    """`did you mean "x"?` where a known word resembles the unknown one; else the known words."""
+    close = get_close_matches(unknown, known, n=1, cutoff=0.6)
+    return f'did you mean "{close[0]}"?' if close else f"accepted are {', '.join(known) or 'none'}"
+
+
+def _sentence(component: type[BaseModel], item: dict[str, Any]) -> str:
+    location, kind = item["loc"], item["type"]
+    key = key_text(location)
+    if kind == "value_error":
+        return f"{key}: {item['ctx']['error']}" if key else str(item["ctx"]["error"])
+    owner = _component_at(component, location[:-1])
+    last = location[-1] if location else None
+    if kind == "extra_forbidden":
+        return f"{key}{_shown(item['input'])}: unknown key; {suggestion(str(last), list(owner.model_fields) if owner else [])}"
+    wanted = accepted(owner, last) if owner and isinstance(last, str) else _item_accepted(component, item)
+    return f"{key}: missing; {wanted}" if kind == "missing" else f"{key}{_shown(item['input'])}: {wanted}"
+
+
+def _item_accepted(component: type[BaseModel], item: dict[str, Any]) -> str:
+    nested = _component_at(component, item["loc"])
+    return f"a table with the keys {', '.join(nested.model_fields)} is accepted" if nested else str(item["msg"])
+
+
+def _shown(value: Any) -> str:
+    """` = value` as it would stand in the file; nothing for a table, which is long."""
+    if isinstance(value, dict):
+        return ""
+    text = str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
+    return f" = {text}" if len(text) <= 60 else f" = {text[:57]}..."
+
+
+def _component_at(component: type[BaseModel], location: Location) -> type[BaseModel] | None:
+    current: type[BaseModel] | None = component
+    for part in location:
+        if isinstance(part, str):
+            field = current.model_fields.get(part) if current else None
+            current = _component_in(field.annotation) if field else None
+    return current
+
+
+def _component_in(annotation: Any) -> type[BaseModel] | None:
+    """The component an annotation holds: itself, or the one within `X | None` or `tuple[X, ...]`."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    if get_origin(annotation) in (Union, types.UnionType, tuple, list):
+        return next((found for part in get_args(annotation) if (found := _component_in(part))), None)
+    return None

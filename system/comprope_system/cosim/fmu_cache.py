@@ -1,0 +1,116 @@
+"""Where the FMUs are: those in `dist/` if they hold today's code, else built into the user's cache."""
+
+import hashlib
+import os
+import sys
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+
+import fmpy
+
+import comprope
+from comprope.drive.cosimulation import ENTRY as DRIVE_ENTRY
+from comprope.drive.cosimulation import interface as drive_interface
+from comprope.fmi.model_interface import ModelInterface
+from comprope.fmi.package import Origin, build
+from comprope.rope.model_file import as_table, bundle, load, validated
+from comprope.rope.simulator.cosimulation import ENTRY as ROPE_ENTRY
+from comprope.rope.simulator.cosimulation import interface as rope_interface
+
+from ..presets import model_path
+
+_SOURCES = Path(comprope.__file__).parent
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """What an FMU is made of: a model, the subpackage of `comprope` it lives in, and what makes it there."""
+
+    interface: ModelInterface
+    package: str
+    entry: str
+    data: Mapping[str, bytes] = field(default_factory=dict)
+
+
+def drive_fmu() -> Path:
+    """The drive's FMU, with the code installed here."""
+    return locate(Recipe(drive_interface(), "drive", DRIVE_ENTRY))
+
+
+def rope_fmu(sensors: int, own_effects: tuple[str, ...] = ()) -> Path:
+    """The FMU of a rope with so many sensors and a user's own effects, with the code installed here."""
+    return locate(_rope_recipe(sensors, own_effects))
+
+
+def locate(recipe: Recipe, dist: Path | None = None) -> Path:
+    """An FMU of the recipe, built if there is none yet; the start values of its parameters may differ.
+
+    Looked for in `dist` (by default the folder of that name where the command runs), then in the cache.
+    """
+    built = (dist or Path("dist")) / f"{recipe.interface.name}.fmu"
+    if built.is_file() and _is_current(built, recipe):
+        return built
+    folder = _cache() / _digest(recipe)
+    cached = folder / built.name
+    if not cached.is_file():
+        folder.mkdir(parents=True, exist_ok=True)
+        build(recipe.interface, [recipe.package], recipe.entry, folder, _origin(), recipe.data)
+    return cached
+
+
+@cache
+def _rope_recipe(sensors: int, own_effects: tuple[str, ...]) -> Recipe:
+    """A rope like the test tower's; sensors and own effects are all that distinguishes one FMU from another."""
+    places = [{"name": f"sensor{k + 1}", "side": "car", "height": 0.0} for k in range(sensors)]
+    table = as_table(load(model_path("tower50"))) | {"sensors": places, "own_effects": own_effects}
+    model = validated(table, "tower50")
+    return Recipe(rope_interface(model), "rope", ROPE_ENTRY, bundle(model))
+
+
+def _is_current(path: Path, recipe: Recipe) -> bool:
+    """Whether an FMU has the recipe's variables and our present sources, file by file."""
+    try:
+        names = sorted(one.name for one in fmpy.read_model_description(str(path)).modelVariables)
+        with zipfile.ZipFile(path) as archive:
+            inside = {_within_package(name): name for name in archive.namelist() if name.startswith("resources/comprope_")}
+            files = {file.relative_to(_SOURCES).as_posix(): file.read_bytes() for file in _sources(recipe)}
+            files |= {name: content for name, content in recipe.data.items() if name.endswith(".py")}
+            same = all(name in inside and archive.read(inside[name]) == content for name, content in files.items())
+    except Exception:  # whatever is wrong with a file of that name, it is not the FMU we look for
+        return False
+    return same and names == sorted(one.name for one in recipe.interface.variables)
+
+
+def _within_package(name: str) -> str:
+    """`resources/comprope_rope_1234/rope/band.py` as `rope/band.py`."""
+    return "/".join(name.split("/")[2:])
+
+
+def _sources(recipe: Recipe) -> list[Path]:
+    """The files that an FMU copies: those on top, and the model's own."""
+    return sorted([*_SOURCES.glob("*.py"), *(_SOURCES / recipe.package).rglob("*.py")])
+
+
+def _digest(recipe: Recipe) -> str:
+    """A name for everything a built FMU depends on."""
+    total = hashlib.sha256(repr((recipe.entry, sorted(recipe.data.items()), sys.version)).encode())
+    for file in [*_sources(recipe), *sorted((_SOURCES / "fmi").rglob("*.py"))]:
+        total.update(file.relative_to(_SOURCES).as_posix().encode() + b"\0" + file.read_bytes())
+    return total.hexdigest()[:16]
+
+
+def _cache() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".cache"
+    return Path(base) / "comprope" / "fmu"
+
+
+def _origin() -> Origin:
+    try:
+        own = metadata.distribution("comprope")
+    except metadata.PackageNotFoundError:  # run from its sources
+        return Origin("0", "MIT")
+    return Origin(own.version, own.read_text("licenses/LICENSE") or own.read_text("LICENSE") or "MIT")

@@ -1,0 +1,41 @@
+"""A car that moves as it was measured, in the place of the drive."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..measurements import Trip
+
+
+class PrescribedMotion:
+    """A participant that gives position, velocity and acceleration of car and counterweight by name.
+
+    Its outputs are named as the drive's. It has no inputs, since nothing moves a measured car.
+    """
+
+    def __init__(self, name: str, trips: Mapping[str, Trip]) -> None:
+        """`trips` by what moves: "car" and "counterweight"."""
+        self.name = name
+        self._trips = dict(trips)
+        self._time = 0.0
+
+    def prepare(self, start: float) -> None:
+        """See `Participant`."""
+        self._time = start
+
+    def set(self, values: Mapping[str, Any]) -> None:
+        """See `Participant`."""
+
+    def outputs(self) -> dict[str, Any]:
+        """See `Participant`."""
+        return {
+            f"{what}_{quantity}": float(getattr(trip, quantity)(self._time))
+            for what, trip in self._trips.items()
+            for quantity in ("position", "velocity", "acceleration")
+        }
+
+    def begin(self) -> None:
+        """See `Participant`."""
+
+    def step(self, time: float, dt: float) -> None:
+        """See `Participant`."""
+        self._time = time + dt

@@ -1,0 +1,58 @@
+"""How far a swaying building swings the rope of a parked car: the small rope at standstill, in closed form.
+
+The ends sway with the building, in proportion to the height above the axle; what counts is the rope's departure from the
+building. Mode k, of angular frequency w, answers the sway s = A sin(W t), begun at rest, by
+
+    q = F / (w^2 - W^2) (sin(W t) - (W / w) sin(w t)),   F = W^2 m_k A
+
+with m_k the mode's share of a straight line from axle to end, less what bends it (the line is no shape of rest of a rope whose
+tension grows with height). Without damping, so that at resonance the swing grows as long as the building sways.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..reduced_model.finite_elements import at_places, matrices, nodes, times
+from ..reduced_model.string_dynamics import still_modes
+from ..reduced_model.swing import PLACES, SIDES, Case
+
+Floats = NDArray[np.float64]
+
+STEP = 0.1  # s
+MODES = 12  # of each side, the slowest
+NEAR = 1e-6  # of W: nearer than that to a mode's frequency counts as beside it
+
+
+@dataclass(frozen=True)
+class Sway:
+    """Amplitude at the top landing [m], period [s] and how long it lasts [s]."""
+
+    amplitude: float
+    period: float
+    duration: float
+
+
+def parked(case: Case, sway: Sway, car: float) -> dict[str, Floats]:
+    """The farthest departure from the building (places,) [m] at PLACES of each side, car parked at `car` [m]."""
+    return {side: _side(case, sway, float(case.length(side, np.array([car]))[0])) for side in SIDES}
+
+
+def worst(case: Case, sway: Sway, cars: Floats) -> tuple[float, float]:
+    """The farthest departure [m] over parked cars, and the height of that car [m]."""
+    found = [max(float(one.max()) for one in parked(case, sway, float(car)).values()) for car in cars]
+    return max(found), float(cars[int(np.argmax(found))])
+
+
+def _side(case: Case, sway: Sway, length: float) -> Floats:
+    W = 2.0 * np.pi / sway.period
+    squares, modes, stiffness = still_modes(case.rope, length)
+    squares, modes = squares[:MODES], modes[:, :MODES]
+    amplitude = sway.amplitude * length / (case.height + case.pit)
+    force = amplitude * modes.T @ (W**2 * times(matrices().mass, nodes()) - times(stiffness, nodes()))
+    w = np.sqrt(squares)
+    w = np.where(np.abs(w - W) < NEAR * W, (1.0 + NEAR) * W, w)
+    t = np.arange(0.0, sway.duration, STEP)[:, None]
+    q = force / (w**2 - W**2) * (np.sin(W * t) - W / w * np.sin(w * t))
+    return np.asarray(np.abs(q @ modes.T @ at_places(PLACES)[:, 1:-1].T).max(axis=0))

@@ -1,0 +1,169 @@
+"""The page of `comprope design`."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from comprope.drive.parameters import Profile
+from comprope.rope.effects import RopeModel
+
+from ..modal.hanging_string import side_string
+from ..report.page import Block, Picture, Section, Table
+from ..report.plot_style import COLOURS, GREY, label, legend, panels, plain_log
+from .trip_envelopes import course, floors
+
+TITLE = "Compensation rope: sheave and sensors"
+LEAD = (
+    "The least sheave that keeps the rope's swing under a limit on all trips between floors and in a swaying building, the "
+    "heights from which sensors see it, and where periods meet. Swing is the farthest departure of either side from its shape "
+    "at rest."
+)
+Result = Mapping[str, Any]
+MODES = (1, 2, 3)
+
+
+def summary(result: Result) -> list[str]:
+    """What was found, in lines."""
+    places = ", ".join(f"{one['side']} {one['height']:.1f} m" for one in result["sensors"]["places"])
+    return [
+        f"least sheave for {1e3 * result['limit']:g} mm: {result['mass']:.1f} kg for each rope "
+        f"(small rope: {result['mass_small']:.1f} kg)",
+        f"sensors: {places}; the best of them sees {100.0 * result['sensors']['share']:.0f} % of any large swing or more",
+    ]
+
+
+def sections(result: Result, model: RopeModel, chosen: RopeModel, profile: Profile) -> list[Section]:
+    """The page's sections."""
+    return [
+        Section("mass", "The least sheave", _mass(result)),
+        Section("resonance", "Where periods meet", _resonance(result, model, chosen, profile)),
+        Section("sensors", "Where to look", _sensors(result)),
+    ]
+
+
+def _mass(result: Result) -> list[Block]:
+    worst = min(result["scanned"], key=lambda one: abs(one["mass"] - result["mass"]))
+    sway = result["sway"]
+    kept = (
+        ""
+        if not sway
+        else ""
+        if result["sway_limit"] is None
+        else f" and the swing in the sway under {result['sway_limit']:g} mm"
+    )
+    swayed = (
+        f"The building sways by {1e3 * sway['amplitude']:g} mm at the top landing with a period of {sway['period']:g} s for "
+        f"{sway['duration']:g} s, the car parked: the worst floor near that mass is at {worst['sway_car']:g} m, with "
+        f"{1e3 * worst['sway']:.1f} mm. A floor whose rope has that period swings most; another weight moves the floor, parking "
+        "elsewhere helps. " if sway else ""
+    )  # fmt: skip
+    text = (
+        f"{result['mass']:.1f} kg for each rope keep the swing under {1e3 * result['limit']:g} mm on all trips between "
+        f"{result['floors']} floors{kept}. The worst trip near that mass goes from {worst['trip'][0]:g} to "
+        f"{worst['trip'][1]:g} m. "
+        "Masses are scanned on the small linear rope; the worst trip is run on the full model, the mass "
+        "raised until that keeps the "
+        f"limit too. {swayed}The sway is judged on the small rope alone, which has no damping, so that it "
+        "errs upward near resonance."
+    )
+    rows = [
+        (f"{one['mass']:.1f}", f"{1e3 * one['swing']:.2f}", f"{one['trip'][0]:g} to {one['trip'][1]:g} m",
+         f"{1e3 * one['after']:.2f}", f"{1e3 * one['sway']:.2f}" if sway else "", f"{one['sway_car']:g}" if sway else "")
+        for one in result["scanned"]
+    ]  # fmt: skip
+    head = ("mass [kg]", "worst trip [mm]", "which", "worst after a trip [mm]", "worst sway [mm]", "car parked at [m]")
+    full = Table(
+        ("mass [kg]", "worst trip, full model [mm]"), [(f"{mass:.1f}", f"{1e3 * swing:.2f}") for mass, swing in result["full"]],
+        "The worst trip run on the full model, the last mass being the one chosen",
+    )
+    return [text, Picture("design_mass", _draw_mass(result)), Table(head, rows), full]
+
+
+def _draw_mass(result: Result) -> Any:
+    figure, (axes,) = panels(height=3.2)
+    masses = [one["mass"] for one in result["scanned"]]
+    axes.loglog(
+        masses, [1e3 * one["swing"] for one in result["scanned"]], "o-", color=COLOURS[0], markersize=3.5, label="worst trip"
+    )
+    if result["sway"]:
+        axes.loglog(
+            masses, [1e3 * one["sway"] for one in result["scanned"]], "o-", color=COLOURS[2], markersize=3.5, label="sway"
+        )
+    full = [(mass, 1e3 * swing) for mass, swing in result["full"]]
+    axes.loglog(*zip(*full, strict=True), "D", color=COLOURS[1], markersize=4.5, label="worst trip, full model")
+    axes.axhline(1e3 * result["limit"], color=COLOURS[4], linewidth=1.0, label="limit")
+    axes.axvline(result["mass"], color=GREY, linewidth=0.9)
+    plain_log(axes.xaxis, axes.yaxis)
+    label(axes, "sheave mass [kg]", "largest departure [mm]")
+    legend(axes)
+    return figure
+
+
+def _resonance(result: Result, model: RopeModel, chosen: RopeModel, profile: Profile) -> list[Block]:
+    text = (
+        "Blue and orange: natural periods of both sides over the car's position, one to three half waves. "
+        "Green: trips up from the "
+        "bottom and down from the top landing, at the height where they end and the time they take, marks at "
+        "the floors; where green "
+        "crosses blue or orange a trip lasts as long as the rope swings. The band is the building's sway, 5 % to either side."
+    )
+    pictures = [
+        Picture(f"resonance_{name}", _draw_resonance(result, one, profile), f"Sheave of {one.sheave.mass:.1f} kg ({told})")
+        for name, one, told in (("own", model, "as in the model"), ("least", chosen, "the least one"))
+    ]
+    return [text, *pictures]
+
+
+def _draw_resonance(result: Result, model: RopeModel, profile: Profile) -> Any:
+    figure, (axes,) = panels(height=4.2)
+    height = model.shaft.height
+    cars = np.linspace(0.0, height, 81)
+    for side, colour in (("car", COLOURS[1]), ("counterweight", COLOURS[0])):
+        strings = [side_string(model, float(car), side) for car in cars]
+        for waves, style in zip(MODES, ("-", "--", ":"), strict=True):
+            name = f"{side}'s side, {waves} half wave{'s' if waves > 1 else ''}"
+            axes.plot(cars, [one.period(waves) for one in strings], style, color=colour, linewidth=1.3, label=name)
+    fine, ends = np.linspace(0.0, height, 401), floors(height, result["floors"])
+    for start, mark, name in ((0.0, "^", "trips up from the bottom"), (height, "v", "trips down from the top")):
+        axes.plot(fine, [course(profile, (start, float(end))).duration for end in fine], color=COLOURS[2], linewidth=0.8)
+        axes.plot(
+            ends,
+            [course(profile, (start, float(end))).duration for end in ends],
+            mark,
+            color=COLOURS[2],
+            markersize=4.5,
+            label=name,
+        )
+    if result["sway"]:
+        period = result["sway"]["period"]
+        axes.axhspan(0.95 * period, 1.05 * period, color="#f0d9d2", label="building's sway")
+    axes.set_ylim(0.0, 1.3 * max(side_string(model, 0.0).period(), result["sway"]["period"] if result["sway"] else 0.0))
+    label(axes, "height of the car [m]", "period, or duration of the trip [s]")
+    legend(axes, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return figure
+
+
+def _sensors(result: Result) -> list[Block]:
+    found = result["sensors"]
+    text = (
+        f"The {len(found['places'])} sensors were chosen one after the other and then exchanged, so that on "
+        "the trips that swing most, "
+        "and after them, the best of them sees as much as possible of the largest swing anywhere. On the "
+        "worst of these trips it sees "
+        f"{100.0 * found['share']:.0f} %."
+    )
+    rows = [(one["side"], f"{one['height']:.1f}") for one in found["places"]]
+    return [text, Table(("side", "height above the bottom landing [m]"), rows), Picture("design_sensors", _draw_sensors(found))]
+
+
+def _draw_sensors(found: Mapping[str, Any]) -> Any:
+    figure, axes = panels(2, height=3.6)
+    count = len(found["heights"])
+    for one, side, seen in zip(axes, ("car", "counterweight"), (found["seen"][:count], found["seen"][count:]), strict=True):
+        one.plot([1e3 * value for value in seen], found["heights"], color=COLOURS[0])
+        for place in found["places"]:
+            if place["side"] == side:
+                one.axhline(place["height"], color=COLOURS[1], linewidth=1.2)
+        label(one, "largest departure over trips [mm]", "height [m]", f"{side}'s side; orange: sensors")
+    return figure

@@ -1,0 +1,1 @@
+"""The model against measurements: error metrics, clock offsets, data quality."""

@@ -1,0 +1,164 @@
+"""What a person should know about the data before believing a fit: said, not fitted away.
+
+Each rule looks at a campaign and the model's predictions for it and gives sentences. What instruments do
+wrong at large (sign, unit, clock) shows as soon as a model is set beside them, however poor the model.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+
+from ...measurements.run_table import UNITS
+from ..data.campaign import Campaign, Run
+from ..data.trip_phases import phases
+from ..data.whitening import outliers
+from ..prediction.parameter_point import Predictions
+from .clock_offset import clock
+from .paired_records import LEAST, Record, by_column, records_of
+
+ALIKE = 0.7  # correlation of measured and predicted that a remark about sign or unit needs
+
+
+def remarks(campaign: Campaign, predictions: Predictions, plain: Predictions | None = None) -> list[str]:
+    """Sentences about the data, the most disturbing first; empty when there is nothing to say.
+
+    `plain` are predictions in which no instrument's fault is fitted away; by default those given.
+    """
+    records = list(records_of(campaign, predictions))
+    untouched = list(records_of(campaign, plain or predictions))
+    of_channels = [sentence for rule in PLAIN_RULES for group in by_column(untouched) for sentence in rule(group)]
+    of_channels += [sentence for rule in CHANNEL_RULES for group in by_column(records) for sentence in rule(group)]
+    of_runs = [sentence for run in campaign.runs for sentence in _of_run(run)]
+    return [*campaign.notes, *of_channels, *clock(records), *of_runs, *(note for run in campaign.runs for note in run.notes)]
+
+
+# -- one channel over all runs -----------------------------------------------------------------------
+
+
+def sign(group: Sequence[Record]) -> Iterator[str]:
+    """A channel that moves against the model in every run that shows it."""
+    seen = [one.gain() for one in group if np.isfinite(one.gain()[0])]
+    if seen and max(c for _, c in seen) < 0.0 and min(c for _, c in seen) < -ALIKE:
+        name = group[0].channel.column
+        gain = float(np.median([g for g, _ in seen]))
+        yield f"{name}: moves against the model in every run (gain {gain:.2f}): its sign is probably wrong"
+
+
+def unit(group: Sequence[Record]) -> Iterator[str]:
+    """A channel whose size is that of another unit, or of another power of ten."""
+    seen = [abs(one.gain()[0]) for one in group if abs(one.gain()[1]) > ALIKE]
+    if not seen or max(seen) > 1.5 * min(seen):
+        return
+    gain, channel = float(np.median(seen)), group[0].channel
+    scales = UNITS[channel.quantity]
+    fitting = [name for name, scale in scales.items() if scale != channel.scale and _near(gain * scale / channel.scale)]
+    if fitting and not _near(gain):
+        yield f'{channel.column}: {gain:.3g} times what the model has; its unit is probably "{fitting[0]}", not "{channel.unit}"'
+    elif abs(np.log10(gain)) > 0.8 and abs(np.log10(gain) - round(float(np.log10(gain)))) < 0.15:
+        yield f"{channel.column}: {gain:.3g} times what the model has, near a power of ten: check its unit"
+
+
+def _near(gain: float) -> bool:
+    return 0.7 < gain < 1.4
+
+
+def noise(group: Sequence[Record]) -> Iterator[str]:
+    """A stated noise that the steps between samples at rest contradict."""
+    channel = group[0].channel
+    taken = [one.noise for one in group if channel.noise and one.noise != channel.noise * channel.scale]
+    if channel.noise and taken:
+        seen = float(np.median(taken)) / channel.scale
+        told = "more" if seen > channel.noise else "less"
+        stated = f"{channel.column}: noise = {channel.noise:g} {channel.unit} is stated"
+        yield f"{stated}, but at rest it is {seen:.2g} {channel.unit}, {told} than that; the latter is taken"
+
+
+def drift(group: Sequence[Record]) -> Iterator[str]:
+    """A residual that goes on climbing at the same rate before the trip and after it."""
+    slopes = [pooled_slope(group, phase) for phase in ("rest", "after_stop")]
+    (before, d_before), (after, d_after) = slopes
+    surely = min(abs(before) / d_before, abs(after) / d_after)
+    if surely > 4.0 and before * after > 0.0 and 0.5 < before / after < 2.0:
+        channel = group[0].channel
+        rate = 60.0 * 0.5 * (before + after) / channel.scale
+        yield f"{channel.column}: drifts by about {rate:.2g} {channel.unit} a minute, before the trips and after them alike"
+
+
+def pooled_slope(group: Sequence[Record], phase: str) -> tuple[float, float]:
+    """Mean slope [SI/s] of the residual in a phase over all runs, and its standard deviation from runs and noise."""
+    found = []
+    for one in group:
+        mask = phases(one.run.trip, one.run.time)[phase] & one.both
+        mask[mask] = ~outliers(one.measured[mask], one.noise) if mask.sum() >= LEAST else False
+        if mask.sum() >= LEAST:
+            t = one.run.time[mask] - one.run.time[mask].mean()
+            x = one.measured[mask] - one.predicted[mask]
+            found.append((float(t @ x / (t @ t)), one.noise / float(np.sqrt(t @ t))))
+    if not found:
+        return 0.0, float("inf")
+    slopes, deviations = np.array(found).T
+    scatter = float(np.std(slopes)) / max(len(slopes) - 1, 1) ** 0.5
+    return float(slopes.mean()), max(scatter, float(np.sqrt((deviations**2).sum())) / len(slopes))
+
+
+def far_out(group: Sequence[Record]) -> Iterator[str]:
+    """Samples far from their neighbours."""
+    counts = {}
+    for one in group:
+        known = one.measured[np.isfinite(one.measured)]
+        if len(known) >= LEAST and (count := int(outliers(known, one.noise).sum())):
+            counts[one.run.file] = count
+    if counts:
+        told = ", ".join(f"{count} in {file}" for file, count in counts.items())
+        yield f"{group[0].channel.column}: samples far from their neighbours ({told}); they are left out of fits"
+
+
+def gaps(group: Sequence[Record]) -> Iterator[str]:
+    """Samples that are missing although the rope should be in view, or there although it should not."""
+    missing, extra = {}, {}
+    for one in group:
+        holes, seen = np.isnan(one.measured), np.isfinite(one.predicted)
+        if (share := float(np.mean(holes[seen]))) > 0.002 if seen.any() else False:
+            missing[one.run.file] = share
+        if (share := float(np.mean(~holes[~seen]))) > 0.5 if (~seen).sum() >= LEAST else False:
+            extra[one.run.file] = share
+    name = group[0].channel.column
+    if missing:
+        told = ", ".join(f"{100 * share:.2g} % in {file}" for file, share in missing.items())
+        yield f"{name}: empty where the rope should be in view: {told}"
+    if extra:
+        yield f"{name}: shows values where the rope's end has passed the sensor, in {', '.join(extra)}; they are left out"
+
+
+def unseen_rest(group: Sequence[Record]) -> Iterator[str]:
+    """A channel that counts from a rest at which it shows nothing."""
+    runs = [one.run.file for one in group if not np.isfinite(one.measured[one.run.rest]).any()]
+    if group[0].channel.reference == "rest" and runs:
+        told = f"{group[0].channel.column}: counts from rest, but shows nothing before the trip in {', '.join(runs)}"
+        yield f"{told}: taken there as it is written"
+
+
+Rule = Callable[[Sequence[Record]], Iterator[str]]
+PLAIN_RULES: tuple[Rule, ...] = (sign, unit, drift)
+CHANNEL_RULES: tuple[Rule, ...] = (noise, far_out, gaps, unseen_rest)
+
+
+# -- runs --------------------------------------------------------------------------------------------
+
+
+def _of_run(run: Run) -> Iterator[str]:
+    steps = np.diff(run.time)
+    widest = int(np.argmax(steps))
+    if steps[widest] > max(10.0 * float(np.median(steps)), 0.2):
+        yield f"{run.file}: no samples at all for {steps[widest]:.2g} s from time = {run.time[widest]:.4g} s on"
+    if run.trip.kind == "rest":
+        yield f"{run.file}: the car does not move"
+    elif run.time[-1] < run.trip.rest_after:
+        yield f"{run.file}: the record ends before the car stops"
+    if run.trip.kind != "rest" and run.trip.rest_before - run.time[0] < 0.5:
+        rest = run.trip.rest_before - run.time[0]
+        yield f"{run.file}: only {rest:.2f} s at rest before the trip: values that count from rest are uncertain"
+    if run.trip.noise > 5e-3:
+        yield f"{run.file}: car_position scatters by {1e3 * run.trip.noise:.1f} mm about a smooth trip"
+    if run.trip.kind == "spline":
+        yield f"{run.file}: the car follows no jerk-limited profile; its trip is a smoothed curve, less sure in its accelerations"

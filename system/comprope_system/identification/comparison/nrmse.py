@@ -1,0 +1,46 @@
+"""Plain errors of predictions: root-mean-square error over root-mean-square variation, per channel and over all."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..data.campaign import Campaign, Run
+from ..data.whitening import outliers, sample_noise
+from ..prediction.parameter_point import Predictions
+from ..prediction.replay import referred
+
+Floats = NDArray[np.float64]
+
+
+def trusted(measured: Floats, predicted: Floats, noise: float) -> NDArray[np.bool_]:
+    """Which samples (n,) exist in both and are measured near their neighbours; `noise` [SI] is one sample's."""
+    both = np.isfinite(measured) & np.isfinite(predicted)
+    both[both] = ~outliers(measured[both], noise) if both.any() else False
+    return both
+
+
+def channel_error(measured: Floats, predicted: Floats, noise: float) -> float:
+    """Root-mean-square error over the root-mean-square variation of the measured values, of samples that are `trusted`."""
+    both = trusted(measured, predicted, noise)
+    if both.sum() < 2:
+        return float("nan")
+    variation = float(np.std(measured[both]))
+    return float(np.sqrt(np.mean((measured[both] - predicted[both]) ** 2))) / max(variation, 1e-12)
+
+
+def overall(errors: Iterable[float]) -> float:
+    """Root-mean-square of channel errors; NaN where there is none."""
+    known = [one for one in errors if np.isfinite(one)]
+    return float(np.sqrt(np.mean(np.square(known)))) if known else float("nan")
+
+
+def nrmse(campaign: Campaign, runs: Sequence[Run], predictions: Predictions) -> float:
+    """The error of all channels of some runs."""
+    found = []
+    for run in runs:
+        measured = referred(run.values, run, campaign.channels)
+        for column, channel in campaign.channels.items():
+            noise = sample_noise(run, channel, measured[column])
+            found.append(channel_error(measured[column], predictions[run.file, column], noise))
+    return overall(found)

@@ -1,0 +1,61 @@
+"""Measured and predicted channels side by side, one run at a time: what remarks about data look at."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..data.campaign import Campaign, Channel, Run
+from ..data.whitening import sample_noise
+from ..prediction.parameter_point import Predictions
+from ..prediction.replay import referred
+
+Floats = NDArray[np.float64]
+VISIBLE = 3.0  # times the noise that a channel must vary by to be judged
+LEAST = 30  # samples
+
+
+@dataclass(frozen=True)
+class Record:
+    """One channel of one run, measured (n,) and predicted (n,) [SI] side by side, NaN where there is none."""
+
+    run: Run
+    channel: Channel
+    measured: Floats
+    predicted: Floats
+
+    @property
+    def both(self) -> NDArray[np.bool_]:
+        """Where both exist."""
+        return np.isfinite(self.measured) & np.isfinite(self.predicted)
+
+    @property
+    def noise(self) -> float:
+        """One sample's standard deviation [SI], as the fits take it."""
+        return sample_noise(self.run, self.channel, self.measured)
+
+    def gain(self) -> tuple[float, float]:
+        """Measured over predicted variation, and their correlation; (nan, 0) where there is too little to see."""
+        both = self.both
+        if both.sum() < LEAST:
+            return float("nan"), 0.0
+        m, p = self.measured[both] - self.measured[both].mean(), self.predicted[both] - self.predicted[both].mean()
+        if np.std(m) < VISIBLE * self.noise or np.std(p) == 0.0:
+            return float("nan"), 0.0
+        return float((m @ p) / (p @ p)), float((m @ p) / np.sqrt((m @ m) * (p @ p)))
+
+
+def records_of(campaign: Campaign, predictions: Predictions) -> Iterator[Record]:
+    """Every channel of every run."""
+    for run in campaign.runs:
+        measured = referred(run.values, run, campaign.channels)
+        for column, channel in campaign.channels.items():
+            yield Record(run, channel, measured[column], predictions[run.file, column])
+
+
+def by_column(records: Sequence[Record]) -> list[list[Record]]:
+    """The records of each channel, over all runs."""
+    ordered = sorted(records, key=lambda one: one.channel.column)
+    return [list(group) for _, group in groupby(ordered, key=lambda one: one.channel.column)]

@@ -1,0 +1,1 @@
+"""Measurement campaigns: files, trip phases, whitened channels."""

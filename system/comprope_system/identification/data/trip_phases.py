@@ -1,0 +1,33 @@
+"""The phases of a trip: at rest, speeding up, at speed, slowing down, and after the stop."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...measurements import Trip
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+PHASES = ("rest", "acceleration", "cruise", "deceleration", "after_stop")
+AT_SPEED = 0.99  # of the top speed: above it a trip counts as at speed
+
+
+def phases(trip: Trip, time: Floats) -> dict[str, Mask]:
+    """Which samples at `time` (n,) [s] lie in which phase; each lies in one.
+
+    Speed decides, not acceleration, which a recovered trip knows less well.
+    """
+    speed = np.abs(trip.velocity(time))
+    fast = np.flatnonzero(speed >= AT_SPEED * speed.max()) if speed.any() else np.array([len(time), -1])
+    before, index = time <= trip.rest_before, np.arange(len(time))
+    if not speed.any():
+        before = np.ones(len(time), bool)
+    after = (time >= trip.rest_after) & ~before
+    moving = ~before & ~after
+    masks = (
+        before,
+        moving & (index < fast[0]),
+        moving & (index >= fast[0]) & (index <= fast[-1]),
+        moving & (index > fast[-1]),
+        after,
+    )
+    return dict(zip(PHASES, masks, strict=True))

@@ -1,0 +1,130 @@
+"""The next run to measure: the one in which the two best rivals differ most, each as fitted to the runs there are."""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.errors import CompropeError
+from comprope.rope.simulator.rope import values_of
+
+from ...measurements import Trip
+from ...measurements.jerk_limited_profile import jerk_limited
+from ..data.campaign import Campaign, Run
+from ..data.whitening import part
+from ..estimation.gauss_newton import Fitted
+from ..prediction.parameter_point import gathered, submit
+from .diagnose import Diagnosis
+
+Floats = NDArray[np.float64]
+WEIGHTS = (0.5, 1.0, 1.5)  # of the sheave's
+SHARES = (0.9, 0.4)  # of the shaft's height
+SPEEDS = (1.0, 0.6)  # of the speed of the runs there are
+BEFORE, AFTER = 2.0, 6.0  # s at rest
+SAMPLING = 0.02  # s
+SURE = 0.95  # probability above which no further run is asked for
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A run to measure: `distance` is how many standard deviations of noise and discrepancy the rivals are apart, in the mean."""
+
+    weight: float
+    start: float
+    end: float
+    speed: float
+    distance: float
+
+    def told(self) -> str:
+        """One line."""
+        way = "up" if self.end > self.start else "down"
+        trip = f"{way} from {self.start:.3g} m to {self.end:.3g} m at {self.speed:.3g} m/s"
+        return f"{trip} with {self.weight:g} times the sheave's weight"
+
+    def to_json(self) -> dict[str, Any]:
+        """Everything, in SI units."""
+        return {
+            "sheave_weight_factor": self.weight, "start": self.start, "end": self.end, "speed": self.speed,
+            "distance": self.distance,
+        }  # fmt: skip
+
+
+def unsettled(diagnosis: Diagnosis) -> bool:
+    """Whether another run could change the verdict."""
+    return (diagnosis.kind != "adequate" and max(diagnosis.probabilities.values()) < SURE) or diagnosis.kind == "unknown_effect"
+
+
+def rivals(diagnosis: Diagnosis) -> tuple[tuple[str, Fitted], tuple[str, Fitted]] | None:
+    """The two best fits on the full model, that without an effect among them; None if there is one only."""
+    fitted = [(one.hypothesis.effect, one.fitted) for one in diagnosis.ranking if one.refined]
+    found = sorted([*fitted, ("nothing missing", diagnosis.none)], key=lambda one: one[1].misfit)
+    return (found[0], found[1]) if len(found) > 1 else None
+
+
+def next_runs(diagnosis: Diagnosis, executor: Executor) -> list[Proposal]:
+    """Runs that would separate the two best rivals, the best first; their fits are not repeated with the new run."""
+    pair = rivals(diagnosis)
+    if pair is None:
+        return []
+    tried = list(candidates(diagnosis.campaign))
+    jobs = [(one, run, [submit(diagnosis.campaign, [run], fitted.point, executor) for _, fitted in pair]) for one, run in tried]
+    found = []
+    for one, run, both in jobs:
+        try:
+            a, b = (gathered([run], some) for some in both)
+        except CompropeError:  # a weight or a trip that this rope cannot do
+            continue
+        found.append(replace(one, distance=_distance(diagnosis.campaign, run, a, b)))
+    return sorted(found, key=lambda one: -one.distance)
+
+
+def candidates(campaign: Campaign) -> list[tuple[Proposal, Run]]:
+    """Every run that is considered: sheave's weight, direction, distance, speed."""
+    height = campaign.model.shaft.height
+    lowest = min(float(run.trip.position(run.time).min()) for run in campaign.runs)
+    highest = max(float(run.trip.position(run.time).max()) for run in campaign.runs)
+    top = max(float(np.abs(run.trip.velocity(run.time)).max()) for run in campaign.runs)
+    pull = max(float(np.abs(run.trip.acceleration(run.time)).max()) for run in campaign.runs)
+    found = []
+    for weight, share, speed, up in product(WEIGHTS, SHARES, SPEEDS, (True, False)):
+        reach = min(share * height, highest - lowest)
+        ends = (lowest, lowest + reach) if up else (highest, highest - reach)
+        one = Proposal(weight, *ends, min(speed * top, (0.6 * pull * reach) ** 0.5), 0.0)
+        found.append((one, _run(campaign, one, pull)))
+    return found
+
+
+def _run(campaign: Campaign, one: Proposal, pull: float) -> Run:
+    ramp, way = one.speed / pull, abs(one.end - one.start)
+    cruise = way / one.speed - 1.5 * ramp
+    phases = np.array([0.5 * ramp, 0.5 * ramp, 0.5 * ramp, cruise, 0.5 * ramp, 0.5 * ramp, 0.5 * ramp])
+    trip = Trip((jerk_limited(one.start, one.end - one.start, BEFORE, phases),), 0.0, "profile")
+    time = np.arange(0.0, trip.rest_after + AFTER, SAMPLING)
+    base = values_of(campaign.model)
+    changes: dict[str, Any] = {"sheave.mass": one.weight * base["sheave.mass"]}
+    if any("sheave.inertia" in run.changes for run in campaign.runs):
+        changes["sheave.inertia"] = one.weight * base["sheave.inertia"]
+    return Run("proposal", "fit", changes, time, trip.position(time), trip, trip.mirrored(campaign.model.shaft.height), {})
+
+
+def _distance(campaign: Campaign, run: Run, a: dict[tuple[str, str], Floats], b: dict[tuple[str, str], Floats]) -> float:
+    """Root mean square of the whitened difference of two predictions."""
+    total, count = 0.0, 0
+    for column, channel in campaign.channels.items():
+        one, other = a[run.file, column], b[run.file, column]
+        stated = channel.model_copy(update={"noise": channel.noise or _noise(campaign, column)})
+        weighed = part(run, stated, one, np.isfinite(one) & np.isfinite(other))
+        if weighed:
+            apart = weighed.whiten(weighed.means(one) - weighed.means(other))
+            total, count = total + float(apart @ apart), count + len(apart)
+    return float((total / max(count, 1)) ** 0.5)
+
+
+def _noise(campaign: Campaign, column: str) -> float:
+    """A channel's noise in its unit where none is stated: a hundredth of how it varies."""
+    spread: Sequence[float] = [float(np.nanstd(run.values[column])) for run in campaign.runs]
+    return max(0.01 * float(np.median(spread)) / campaign.channels[column].scale, 1e-9)

@@ -1,0 +1,109 @@
+"""Which frequencies a swaying building would have: the model's linear response over a grid of them.
+
+A record's spectrum alone misleads: the rope rings at frequencies of its own, which change on the way, and beats with what
+drives it. Here each run has an amplitude and a phase of its own, and the plant is refitted beside them.
+"""
+
+from collections.abc import Mapping, Sequence
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import find_peaks, lombscargle
+
+from comprope.errors import SimulationError
+from comprope.rope.effects import RopeModel, names_of
+
+from ..data.campaign import Channel, Run
+from ..data.whitening import Part
+from ..estimation.gauss_newton import Fitted
+from ..estimation.linearisation import directions_of
+from ..estimation.weighted_least_squares import Problem
+from ..prediction.parameter_point import Predictions, moved
+from ..prediction.replay import STEP, referred
+from ..prediction.replay_sensitivities import replay_with_sensitivities
+
+Floats = NDArray[np.float64]
+EFFECT = "building_sway"
+LOWEST, HIGHEST = 0.05, 1.5  # Hz
+SPACING = 0.5  # of a period over the longest record
+MOST = 3
+
+
+def scanned(problem: Problem, fitted: Fitted, coarse: float) -> tuple[float, ...]:
+    """The frequencies [Hz] at which a sway would explain most of what a fit leaves, on elements `coarse` times as long."""
+    campaign = problem.campaign
+    if EFFECT not in names_of(campaign.model):
+        return ()
+    grid = np.arange(LOWEST, HIGHEST, SPACING / problem.longest)
+    jobs = []
+    for run in problem.runs:
+        there = moved(campaign.model, run, problem.held_back(fitted.point), coarse)
+        parts = [one for one in problem.parts if one.run == run.file]
+        jobs.append(problem.executor.submit(responses, campaign.model, there, campaign.channels, parts, grid, coarse))
+    try:
+        found = explained(problem, fitted, [job.result() for job in jobs])
+    except SimulationError:  # elements or steps too long for this rope
+        return ()
+    peaks, _ = find_peaks(found)
+    return tuple(round(_top(grid, found, k), 4) for k in sorted(peaks, key=lambda k: -found[k])[:MOST])
+
+
+def _top(grid: Floats, found: Floats, k: int) -> float:
+    """Where a parabola through a peak and its neighbours is highest."""
+    low, top, high = found[k - 1 : k + 2]
+    return float(grid[k] + 0.5 * (grid[1] - grid[0]) * (low - high) / (low - 2.0 * top + high))
+
+
+def responses(
+    model: RopeModel, run: Run, channels: Mapping[str, Channel], parts: Sequence[Part], grid: Floats, coarse: float
+) -> Floats:
+    """Whitened responses (data of the run, frequencies, 2) to a sway of 1 m, as its sine and its cosine."""
+    amplitude, frequency, phase = (f"effects.{EFFECT}.{name}" for name in ("amplitude", "frequency", "phase"))
+    at = {f"{k}.{turn}": {frequency: float(f), phase: 0.5 * pi * turn} for k, f in enumerate(grid) for turn in (0, 1)}
+    directions = {name: {amplitude: 1.0} for name in at}
+    _, by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at)
+    columns = [np.concatenate([one.whiten(one.means(by[name][one.column])) for one in parts]) for name in at]
+    return np.column_stack(columns).reshape(-1, len(grid), 2)
+
+
+def explained(problem: Problem, fitted: Fitted, responses: Sequence[Floats]) -> Floats:
+    """How much of the squares that a fit leaves a sway of each frequency takes away (frequencies,)."""
+    others, count = directions_of(fitted.hypothesis), len(problem.data)
+    plant, _ = np.linalg.qr(np.vstack([fitted.by, np.diag([1.0 / one.prior for one in others])]))
+    left = _beside(plant, np.append(problem.residual(fitted.predictions), np.zeros(len(others))))
+    found = []
+    for k in range(responses[0].shape[1]):
+        columns = np.zeros((count + len(others), 2 * len(responses)))
+        for j, (rows, of_run) in enumerate(zip(problem.rows_of_runs, responses, strict=True)):
+            columns[:count][rows, 2 * j : 2 * j + 2] = of_run[:, k]
+        columns = _beside(plant, columns)
+        found.append(float(left @ columns @ np.linalg.lstsq(columns.T @ columns, columns.T @ left, rcond=1e-9)[0]))
+    return np.array(found)
+
+
+def _beside(plant: Floats, columns: Floats) -> Floats:
+    """What of some columns an orthonormal basis `plant` cannot imitate."""
+    return np.asarray(columns - plant @ (plant.T @ columns))
+
+
+MOST = 3
+LOWEST, HIGHEST = 0.05, 3.0  # Hz
+
+
+def frequencies(problem: Problem, predictions: Predictions) -> tuple[float, ...]:
+    """The frequencies [Hz] of the highest peaks in the residual of the lateral channels, over all runs."""
+    grid = np.linspace(LOWEST, HIGHEST, 600)
+    power = np.zeros(len(grid))
+    for run in problem.runs:
+        measured = referred(run.values, run, problem.campaign.channels)
+        for column, channel in problem.campaign.channels.items():
+            left = measured[column] - predictions[run.file, column]
+            known = np.isfinite(left)
+            if channel.quantity == "lateral_displacement" and known.sum() > 100:
+                every = max(1, int(known.sum() / 800))
+                t, x = run.time[known][::every], left[known][::every]
+                power += lombscargle(t, x - x.mean(), 2.0 * np.pi * grid) / max(float(np.var(x)), 1e-300)
+    peaks, _ = find_peaks(power)
+    highest = sorted(peaks, key=lambda k: -power[k])[:MOST]
+    return tuple(round(float(grid[k]), 4) for k in highest)

@@ -1,0 +1,1 @@
+"""Weighted nonlinear least squares with priors, and model scores."""

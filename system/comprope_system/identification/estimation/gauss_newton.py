@@ -1,0 +1,140 @@
+"""Fits of one hypothesis: Gauss and Newton's method on plant and effect together, within bounds and priors.
+
+Derivatives along a run cost several plain runs. So they are carried from step to step by Broyden's update (1965), which makes
+them right along the step just made, and found anew where a step gives much less than they promise, and at the end.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..hypotheses.effect_hypotheses import Hypothesis
+from ..hypotheses.plant_parameters import NUISANCES
+from ..prediction.parameter_point import Point, Predictions
+from .linearisation import directions_of, linearised, point_of
+from .model_score import strain, strained
+from .weighted_least_squares import Problem, Solution, scale_of, solve
+
+Floats = NDArray[np.float64]
+ENOUGH = 4e-3  # of the number of data: a fall of the cost below this ends the iteration
+ROUNDS = 40
+KEPT = 0.5  # of what a step promises: the least that it must give for its derivatives to be carried on
+TRUSTED = 3  # rounds after which what a fit expects is believed: friction answers to its size by far other than a line
+HOPELESS = 6.0  # times the rival that a fit may expect in these rounds before it is given up all the same
+SHORTER = (0.3, 0.1, 0.03)  # of a step that leads uphill
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """The best point of a hypothesis (None: nothing is missing), its predictions and how well they agree.
+
+    `misfit` is the sum of squares in units of noise and discrepancy, `penalty` that of coefficients over priors;
+    `coefficients` are plant first, then the effect; `covariance` theirs; `by` (N, coefficients) are the
+    derivatives there. `strain` is what the plant's coefficients cost, there or where derivatives lead from there: a fit
+    ends before priors have pulled all they could.
+    """
+
+    hypothesis: Hypothesis | None
+    point: Point
+    predictions: Predictions
+    coefficients: Floats
+    covariance: Floats
+    by: Floats
+    misfit: float
+    penalty: float
+    strain: float
+
+    def cost(self, scale: float = 1.0) -> float:
+        """Misfit and priors in its scale."""
+        return self.misfit + scale * self.penalty
+
+    @property
+    def strained(self) -> float:
+        """The misfit, raised for a plant off its data sheets."""
+        return strained(self.misfit, self.strain)
+
+    @property
+    def effect_coefficients(self) -> list[float]:
+        """Coefficients of the effect's directions."""
+        return [float(c) for c in self.coefficients[len(NUISANCES) :]]
+
+
+def refine(
+    problem: Problem,
+    hypothesis: Hypothesis | None,
+    start: Floats,
+    base: Point,
+    rival: float = float("inf"),
+    begun: Fitted | None = None,
+) -> Fitted:
+    """The best point near `start`; `begun` is what is known of `start`.
+
+    A fit that expects to end above `rival` is left where it is. Raises `SimulationError` if `start` cannot be simulated.
+    """
+    directions, count, fresh = directions_of(hypothesis), len(problem.data), True
+    best = begun or evaluate(problem, hypothesis, np.asarray(start, float), base)
+    for done in range(ROUNDS):
+        # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
+        scale = scale_of(best.misfit, count)
+        solution = solve(problem.residual(best.predictions), best.by, directions, best.coefficients, scale)
+        best = _seen_from(best, solution)
+        if solution.misfit > rival * (1.0 if done >= TRUSTED else HOPELESS):
+            break
+        enough, promised, before = ENOUGH * scale * count, best.cost(scale) - solution.cost, best.cost(scale)
+        if promised >= enough:
+            best = _downhill(problem, best, solution, base, scale)
+        gain = before - best.cost(scale)
+        if fresh and gain < enough:
+            break
+        fresh = gain < max(enough, KEPT * promised)
+        if fresh:
+            best = replace(evaluate(problem, hypothesis, best.coefficients, base), covariance=best.covariance)
+    return best
+
+
+def _seen_from(fitted: Fitted, solution: Solution) -> Fitted:
+    """The fit with what the solution by its derivatives tells."""
+    least = min(strain(fitted.coefficients), strain(solution.coefficients))
+    return replace(fitted, covariance=solution.covariance, strain=least)
+
+
+def evaluate(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> Fitted:
+    """Misfit and derivatives at the coefficients x (k,). Raises `SimulationError` where the model cannot be simulated there."""
+    return _fitted(problem, hypothesis, x, base, *linearised(problem, hypothesis, x, base))
+
+
+def _fitted(
+    problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point, predictions: Predictions, by: Floats
+) -> Fitted:
+    residual = problem.residual(predictions)
+    penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, directions_of(hypothesis), strict=True)))
+    point, none = point_of(hypothesis, list(x), base), np.zeros((len(x), len(x)))
+    return Fitted(hypothesis, point, predictions, x, none, by, float(residual @ residual), penalty, strain(x))
+
+
+def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, scale: float) -> Fitted:
+    """The solution's point, or one nearer to the present where that one is worse than it or cannot be simulated."""
+    step = solution.coefficients - best.coefficients
+    for shares in ((1.0,), SHORTER):
+        tried = _stepped(problem, best, [share * step for share in shares], base)
+        found = min(tried, key=lambda one: one.cost(scale), default=best)
+        if found.cost(scale) < best.cost(scale):
+            return replace(found, covariance=solution.covariance)
+    return best
+
+
+def _stepped(problem: Problem, best: Fitted, steps: Sequence[Floats], base: Point) -> list[Fitted]:
+    """Those points some steps away that can be simulated, with derivatives carried along the step."""
+    found, y = [], problem.whitened(best.predictions)
+    widths = np.array([one.prior for one in directions_of(best.hypothesis)])
+    reached = [best.coefficients + step for step in steps]
+    at = problem.attempts(*(point_of(best.hypothesis, list(x), base) for x in reached))
+    for x, step, predictions in zip(reached, steps, at, strict=True):
+        if predictions is not None:
+            along = step / widths**2
+            missed = problem.whitened(predictions) - y - best.by @ step
+            by = best.by + np.outer(missed, along / float(along @ step))
+            found.append(_fitted(problem, best.hypothesis, x, base, predictions, by))
+    return found

@@ -1,0 +1,157 @@
+"""A model linearised about a point: predictions and their derivatives by the coefficients of directions."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import pi, remainder
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.rope.effects import RopeModel
+from comprope.rope.model_file import with_changes
+from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.simulator.rope import values_of
+
+from ..data.campaign import Channel, Run
+from ..hypotheses.effect_hypotheses import Hypothesis
+from ..hypotheses.plant_parameters import CLOCK, NUISANCES, Direction
+from ..prediction.parameter_point import Point, Predictions
+from ..prediction.replay import referred
+from ..prediction.replay_sensitivities import replay_with_sensitivities
+from .weighted_least_squares import Problem
+
+Floats = NDArray[np.float64]
+Tangents = tuple[dict[str, Floats], dict[int, dict[str, Floats]]]
+STEP = 1e-4  # of a coefficient, by which it is read off what parameters it moves
+
+
+def directions_of(hypothesis: Hypothesis | None) -> list[Direction]:
+    """The directions of a fit: the plant's, then the effect's."""
+    return [*NUISANCES, *(hypothesis.directions if hypothesis else ())]
+
+
+def point_of(hypothesis: Hypothesis | None, coefficients: Sequence[float], base: Point) -> Point:
+    """The point of these coefficients, beside the effects that `base` has."""
+    names = [one.name for one in NUISANCES]
+    plant = replace(base, plant=dict(zip(names, map(float, coefficients[: len(names)]), strict=True)))
+    return with_effect(plant, hypothesis, [float(c) for c in coefficients[len(names) :]]) if hypothesis else plant
+
+
+def with_effect(point: Point, hypothesis: Hypothesis, coefficients: Sequence[float]) -> Point:
+    """The point with an effect of these coefficients beside those it has."""
+    own = list(coefficients)
+    return replace(
+        point, effects=dict(point.effects) | hypothesis.parameters(own), shifts=_merged(point.shifts, hypothesis.shifts(own))
+    )
+
+
+def _merged(
+    first: Mapping[str, Mapping[str, float]], second: Mapping[str, Mapping[str, float]]
+) -> dict[str, Mapping[str, float]]:
+    return {file: {**first.get(file, {}), **second.get(file, {})} for file in dict.fromkeys([*first, *second])}
+
+
+def linearised(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> tuple[Predictions, Floats]:
+    """Predictions at the coefficients x (k,), and their derivatives (N, k), from one replay of each run.
+
+    Raises `SimulationError` where the model cannot be simulated there.
+    """
+    here, directions = problem.held_back(point_of(hypothesis, list(x), base)), directions_of(hypothesis)
+    steps = [STEP if c + STEP <= one.upper else -STEP for c, one in zip(x, directions, strict=True)]
+    moved = [x + step * (np.arange(len(x)) == k) for k, step in enumerate(steps)]
+    there = [problem.held_back(point_of(hypothesis, list(one), base)) for one in moved]
+    campaign = problem.campaign
+    jobs = [
+        problem.executor.submit(tangents, campaign.model, run, campaign.channels, here, list(zip(there, steps, strict=True)))
+        for run in problem.runs
+    ]
+    found = dict(zip((run.file for run in problem.runs), (job.result() for job in jobs), strict=True))
+    at = {(file, column): values for file, (shown, _) in found.items() for column, values in shown.items()}
+    columns = [_column(problem, hypothesis, here, k, found, at) for k in range(len(directions))]
+    return at, np.column_stack(columns) if columns else np.zeros((len(problem.data), 0))
+
+
+def _column(
+    problem: Problem, hypothesis: Hypothesis | None, here: Point, k: int, found: Mapping[str, Tangents], at: Predictions
+) -> Floats:
+    """Derivatives (N,) by coefficient k at the point `here`."""
+    if k < len(NUISANCES) and NUISANCES[k].name == CLOCK:
+        runs = {run.file: run for run in problem.runs}
+        return problem.column({place: _by_delay(runs[place[0]], value) for place, value in at.items()})
+    if hypothesis and k >= len(NUISANCES) and hypothesis.faulty[k - len(NUISANCES)]:
+        return _by_instrument(problem, hypothesis.directions[k - len(NUISANCES)], here, at)
+    return problem.column({(file, column): values for file, (_, by) in found.items() for column, values in by.get(k, {}).items()})
+
+
+def tangents(
+    model: RopeModel, run: Run, channels: Mapping[str, Channel], here: Point, there: Sequence[tuple[Point, float]]
+) -> Tangents:
+    """Channels of a run at a point, and by k their derivatives towards there[k], a step away; none where nothing moves."""
+    changes = here.changes(model, run)
+    values = values_of(with_changes(model, changes, run.file))
+    directions = {}
+    for k, (point, step) in enumerate(there):
+        moved = values_of(with_changes(model, point.changes(model, run), run.file))
+        change = {key: _apart(key, value, values.get(key, DECLARED[key].neutral)) / step for key, value in moved.items()}
+        if amounts := {key: amount for key, amount in change.items() if amount}:
+            directions[str(k)] = amounts
+    moved_run = replace(run, changes=changes)
+    shown, by = replay_with_sensitivities(model, moved_run, channels, directions)
+    return shown.values, {int(k): one for k, one in by.items()}
+
+
+def _apart(key: str, a: float, b: float) -> float:
+    """How far a is from b; a phase may have gone once round."""
+    return remainder(a - b, 2.0 * pi) if DECLARED[key].unit == "rad" else a - b
+
+
+def by_effect(problem: Problem, hypothesis: Hypothesis, origin: Point, at: Predictions) -> Floats:
+    """Derivatives (N, directions) by the coefficients of an effect that is not there yet; `at` are the predictions without it.
+
+    Points a step away are those of `stepped`.
+    """
+    if hypothesis.is_instrument:
+        return np.column_stack([_by_instrument(problem, one, origin, at) for one in hypothesis.directions])
+    return by_steps(problem, hypothesis, at, problem.predictions(*stepped(origin, hypothesis)))
+
+
+def stepped(origin: Point, hypothesis: Hypothesis) -> list[Point]:
+    """One point for each direction of an effect, a step away, the others at zero."""
+    count, step = len(hypothesis.directions), _step_of(hypothesis)
+    return [with_effect(origin, hypothesis, [step * (j == k) for j in range(count)]) for k in range(count)]
+
+
+def by_steps(problem: Problem, hypothesis: Hypothesis, at: Predictions, moved: Sequence[Predictions]) -> Floats:
+    """Derivatives (N, directions) from the predictions at the points `stepped`."""
+    y = problem.whitened(at)
+    return np.column_stack([problem.whitened(one) - y for one in moved]) / _step_of(hypothesis)
+
+
+def _step_of(hypothesis: Hypothesis) -> float:
+    """A step in coefficients: the whole typical value, since some effects do little until they are of some size.
+
+    What oscillates does as much at any size, but at its typical one a resonance may swing the rope by metres.
+    """
+    return 0.1 if hypothesis.polar else 1.0
+
+
+def _by_instrument(problem: Problem, direction: Direction, here: Point, at: Predictions) -> Floats:
+    """Derivative (N,) of one channel by its gain, offset, delay or drift, from the predictions themselves."""
+    ((key, size),) = direction.changes.items()
+    _, effect, column = key.split(".", 2)
+    moved = {}
+    for run in problem.runs:
+        value = at[run.file, column]
+        slope = {
+            "sensor_gain": value / here.effects.get(key, 1.0),
+            "sensor_offset": np.ones_like(value),
+            "sensor_drift": run.time - run.time[0],
+            "sensor_delay": _by_delay(run, value),
+        }[effect]
+        moved[run.file, column] = size * referred({column: slope}, run, problem.campaign.channels)[column]
+    return problem.column(moved)
+
+
+def _by_delay(run: Run, value: Floats) -> Floats:
+    """Derivative of a channel by how late it is."""
+    return np.asarray(-np.gradient(value, run.time))

@@ -1,0 +1,120 @@
+"""Fitted numbers as a person reads them: values with their uncertainty, and the model that has them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import exp, hypot, isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.quantities import Quantity, quantities
+from comprope.rope.effects import REGISTRY, RopeModel
+from comprope.rope.model_file import with_changes
+from comprope.rope.simulator.rope import values_of
+
+from ..data.campaign import Campaign
+from ..hypotheses.effect_hypotheses import Hypothesis
+from ..hypotheses.plant_parameters import CLOCK, NUISANCES
+from .gauss_newton import Fitted
+from .model_score import LOOKS
+from .weighted_least_squares import scale_of
+
+CONFIDENCE = 1.96  # standard deviations of a 95 % interval
+
+
+@dataclass(frozen=True)
+class Value:
+    """A fitted value [SI], its standard deviation, the bounds of its 95 % interval, and what the file said."""
+
+    value: float
+    deviation: float
+    low: float
+    high: float
+    before: float | None = None
+
+    def told(self) -> str:
+        """The value with its standard deviation, to as many digits as make sense."""
+        if not isfinite(self.deviation) or self.deviation <= 0.0:
+            return f"{self.value:.4g}"
+        if abs(self.value) < 1e-3 * self.deviation:
+            return f"0 ± {self.deviation:.2g}"
+        digits = max(0, int(np.ceil(np.log10(max(abs(self.value), self.deviation) / self.deviation))) + 1)
+        return f"{self.value:.{min(max(digits, 2), 6)}g} ± {self.deviation:.2g}"
+
+    def to_json(self) -> dict[str, float | None]:
+        """Value, standard deviation and 95 % interval."""
+        return {"value": self.value, "deviation": self.deviation, "low": self.low, "high": self.high, "before": self.before}
+
+
+def widening(fitted: Fitted, count: int) -> float:
+    """By how much standard deviations are widened: a model that misses the data knows its parameters less well.
+
+    So does one that misses them by a discrepancy which is one and the same in thousands of samples: they count as LOOKS, as in
+    a score.
+    """
+    return float(np.sqrt(scale_of(fitted.misfit, count) * max(1.0, count / LOOKS)))
+
+
+def effect_results(fitted: Fitted, scale: float = 1.0) -> dict[str, Value]:
+    """Every value that the fit's effects set, with its uncertainty, by its key in the model file."""
+    found: dict[str, Value] = {}
+    at = len(NUISANCES)
+    for part, own in fitted.hypothesis.shares(fitted.effect_coefficients) if fitted.hypothesis else []:
+        covariance = scale**2 * fitted.covariance[at : at + len(own), at : at + len(own)]
+        at += len(own)
+        values = part.parameters(own)
+        found |= {key: _value(key, value, _deviation(part, own, covariance, key)) for key, value in values.items()}
+    return found
+
+
+def _deviation(part: Hypothesis, own: Sequence[float], covariance: NDArray[np.float64], key: str) -> float:
+    """Standard deviation of a value by the derivatives of it by the coefficients, to first order."""
+    by = np.array([one.changes.get(key, 0.0) for one in part.directions])
+    if part.polar and key in part.polar:
+        (c, s), length = own[:2], max(hypot(*own[:2]), 1e-300)
+        size = part.directions[0].changes[part.polar[0]]
+        by[:2] = (size * c / length, size * s / length) if key == part.polar[0] else (-s / length**2, c / length**2)
+    return float(np.sqrt(max(by @ covariance @ by, 0.0)))
+
+
+def _value(key: str, value: float, deviation: float) -> Value:
+    declared = _declared(key)
+    low, high = (declared.minimum, declared.maximum) if declared else (-float("inf"), float("inf"))
+    reach = CONFIDENCE * deviation
+    return Value(value, deviation, max(value - reach, low), min(value + reach, high))
+
+
+def unit_of(effect: str, name: str) -> str:
+    """The unit of an effect's parameter, with a space before it; nothing for a pure number."""
+    declared = _declared(f"effects.{effect}.{name}")
+    unit = declared.unit if declared else {"sensor_delay": "s", "sensor_drift": "1/s"}.get(effect, "1")
+    return "" if unit == "1" else f" {unit.replace('.', '·')}"
+
+
+def _declared(key: str) -> Quantity | None:
+    _, name, short = key.split(".", 2)
+    return next((one for one in quantities(REGISTRY[name]) if one.name == short), None) if name in REGISTRY else None
+
+
+def plant_results(campaign: Campaign, fitted: Fitted, scale: float = 1.0) -> dict[str, Value]:
+    """The refitted plant by model key; values of the model file, which a run may replace."""
+    base, found = values_of(campaign.model) | {CLOCK: 0.0}, {}
+    for k, one in enumerate(NUISANCES):
+        c, deviation = float(fitted.coefficients[k]), scale * float(fitted.covariance[k, k]) ** 0.5
+        place = (lambda x, at=base[one.name]: at * exp(x)) if one.relative else (lambda x, at=base[one.name]: at + x)
+        least = 0.0 if one.changes else -float("inf")
+        value, low, high = (max(place(c + x), least) for x in (0.0, -CONFIDENCE * deviation, CONFIDENCE * deviation))
+        found[one.name] = Value(value, deviation * (value if one.relative else 1.0), low, high, base[one.name])
+    return found
+
+
+def set_by_runs(campaign: Campaign) -> set[str]:
+    """Model keys that some run replaces: a model file cannot change them."""
+    return {key for run in campaign.runs for key in run.changes}
+
+
+def model_of(campaign: Campaign, fitted: Fitted) -> RopeModel:
+    """The model with the fitted plant and effects; what runs replace stays as the file has it, and clocks are no model's."""
+    replaced = set_by_runs(campaign) | {CLOCK}
+    plant = {key: one.value for key, one in plant_results(campaign, fitted).items() if key not in replaced}
+    return with_changes(campaign.model, plant | dict(fitted.point.effects), "fit")

@@ -1,0 +1,148 @@
+"""What may be wrong with a model: plant parameters that are never exact, and effects that may be missing.
+
+A direction is a set of changes of the model, applied in proportion to one coefficient. Nuisance
+parameters are always refitted; each effect's directions come from its own declaration.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import product
+from math import atan2, hypot, pi
+
+from comprope.quantities import Quantity, quantities
+from comprope.rope.effects import INSTRUMENT, REGISTRY, Effect, RopeModel, names_of
+
+from ..data.campaign import Channel
+from .plant_parameters import Direction
+
+SIZE = 30.0  # of an effect's typical value: how widely its size is expected; what a size costs is counted apart
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """One way in which an effect may act: its directions, and what stays fixed with it.
+
+    `polar` is (amplitude, phase) where the two directions are its cosine and sine; `base` is the value without
+    the effect; `parts` are the hypotheses of several effects at once, whose directions stand one after the other.
+    `turned` are runs in which the phase is another: each has a direction more, its difference there.
+    """
+
+    effect: str
+    directions: tuple[Direction, ...]
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    polar: tuple[str, str] | None = None
+    base: float = 0.0
+    parts: tuple["Hypothesis", ...] = ()
+    turned: tuple[str, ...] = ()
+
+    def shares(self, coefficients: list[float]) -> list[tuple["Hypothesis", list[float]]]:
+        """Each effect with its own coefficients."""
+        found, at = [], 0
+        for part in self.parts or (self,):
+            found.append((part, coefficients[at : at + len(part.directions)]))
+            at += len(part.directions)
+        return found
+
+    @property
+    def is_instrument(self) -> bool:
+        """Whether this is a fault of an instrument, not of the rope."""
+        return self.effect in INSTRUMENT
+
+    @property
+    def faulty(self) -> list[bool]:
+        """Which directions are faults of instruments."""
+        return [part.is_instrument for part in self.parts or (self,) for _ in part.directions]
+
+    def shifts(self, coefficients: list[float]) -> dict[str, dict[str, float]]:
+        """What is added to values in single runs, by the run's file."""
+        found: dict[str, dict[str, float]] = {}
+        for part, own in self.shares(coefficients):
+            for file, shift in zip(part.turned, own[2:], strict=False):
+                assert part.polar is not None
+                found.setdefault(file, {})[part.polar[1]] = shift
+        return found
+
+    def parameters(self, coefficients: list[float]) -> dict[str, float]:
+        """Values of model keys for coefficients of the directions."""
+        if self.parts:
+            return {key: value for part, own in self.shares(coefficients) for key, value in part.parameters(own).items()}
+        values: dict[str, float] = {}
+        for direction, coefficient in zip(self.directions, coefficients, strict=True):
+            for key, amount in direction.changes.items():
+                values[key] = values.get(key, self.base) + coefficient * amount
+        if self.polar:
+            size = self.directions[0].changes[self.polar[0]]
+            values = {self.polar[0]: size * hypot(*coefficients[:2]), self.polar[1]: atan2(coefficients[1], coefficients[0])}
+        return dict(self.fixed) | values
+
+
+def hypotheses(model: RopeModel, frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
+    """All hypotheses about effects that the model may have; `frequencies` [Hz] are tried where an effect has one."""
+    return [one for name in names_of(model) for one in of_effect(REGISTRY[name], frequencies)]
+
+
+def of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypothesis]:
+    """One hypothesis for each combination of the values to try."""
+    tried = dict(effect.probes)
+    declared = {one.name: one for one in quantities(effect)}
+    if "frequency" in declared:
+        tried["frequency"] = frequencies or (declared["frequency"].nominal,)
+    amplitudes = [one for one in declared.values() if _is_amplitude(one, effect)]
+    found = []
+    for values in product(*tried.values()):
+        chosen = dict(zip(tried, values, strict=True))
+        others = {f"effects.{effect.name}.{k}": v for k, v in chosen.items() if k not in {a.name for a in amplitudes}}
+        directions = tuple(_direction(effect, one, chosen.get(one.name)) for one in amplitudes)
+        found.append(_assembled(effect, directions, others | dict(effect.brings)))
+    return found
+
+
+def together(*effects: Hypothesis) -> Hypothesis:
+    """All these effects at once."""
+    parts = tuple(part for one in effects for part in one.parts or (one,))
+    if len(parts) == 1:
+        return parts[0]
+    directions = tuple(direction for part in parts for direction in part.directions)
+    return Hypothesis(" + ".join(dict.fromkeys(part.effect for part in parts)), directions, parts=parts)
+
+
+def of_instruments(channels: Mapping[str, Channel]) -> list[Hypothesis]:
+    """One hypothesis for each fault of each channel; an offset shows only where the channel is absolute."""
+    found = []
+    for column, channel in channels.items():
+        # A wrong sign or unit is a gain too.
+        found.append(_fault("sensor_gain", column, 0.02, 100.0, 1.0))
+        found.append(_fault("sensor_delay", column, 0.01, 10.0, 0.0))
+        found.append(_fault("sensor_drift", column, channel.scale * (channel.noise or 0.1) / 60.0, 100.0, 0.0))
+        if channel.reference == "absolute":
+            found.append(_fault("sensor_offset", column, channel.scale * (channel.noise or 0.1), 30.0, 0.0))
+    return found
+
+
+def _fault(effect: str, column: str, size: float, prior: float, base: float) -> Hypothesis:
+    key = f"effects.{effect}.{column}"
+    return Hypothesis(effect, (Direction(key, {key: size}, prior),), base=base)
+
+
+def _is_amplitude(one: Quantity, effect: type[Effect]) -> bool:
+    phase = effect.polar is not None and one.name == effect.polar[1]
+    return one.neutral == 0.0 and not phase
+
+
+def _direction(effect: type[Effect], one: Quantity, probe: float | None) -> Direction:
+    """The amplitude as a coefficient of its typical value; of a value to try it may stray by a factor of three."""
+    key, size = f"effects.{effect.name}.{one.name}", probe if probe is not None else one.nominal
+    lower, upper = sorted((one.minimum / size, one.maximum / size))
+    return Direction(key, {key: size}, SIZE, max(lower, 0.0) if probe is not None else lower, upper)
+
+
+def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: dict[str, float]) -> Hypothesis:
+    if effect.polar is None:
+        return Hypothesis(effect.name, directions, fixed)
+    amplitude, phase = (f"effects.{effect.name}.{name}" for name in effect.polar)
+    size = directions[0].changes[amplitude]
+    pair = tuple(
+        Direction(f"{amplitude}.{word}", {amplitude: size, phase: angle}, SIZE, -float("inf"), float("inf"))
+        for word, angle in (("cosine", 0.0), ("sine", 0.5 * pi))
+    )
+    return Hypothesis(effect.name, pair, fixed, (amplitude, phase))

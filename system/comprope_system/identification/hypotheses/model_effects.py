@@ -1,0 +1,159 @@
+"""Effects that a model file has already, as hypotheses that can be fitted again; and what else of an effect to fit."""
+
+from collections.abc import Mapping, Sequence
+from math import cos, isfinite, log, sin
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.errors import InputError
+from comprope.quantities import quantities
+from comprope.rope.effects import INSTRUMENT, REGISTRY, RopeModel
+from comprope.rope.simulator.rope import values_of
+from comprope.validation_messages import suggestion
+
+from ..data.campaign import Campaign, Channel
+from .effect_hypotheses import Hypothesis, of_effect, of_instruments, together
+from .plant_parameters import Direction
+
+Floats = NDArray[np.float64]
+YIELD = 0.2  # of a value that is fitted beside an effect's amplitude: its unit
+SLOW = 0.05  # periods over a run: the unit of a frequency
+
+
+def effect_values(model: RopeModel) -> dict[str, float]:
+    """Every parameter of the model's effects, instruments' faults included, by its key in the model file."""
+    found = {key: value for key, value in values_of(model).items() if key.startswith("effects.")}
+    for name in INSTRUMENT:
+        table: Mapping[str, float] = getattr(model.effects, name) or {}
+        found |= {f"effects.{name}.{column}": value for column, value in table.items()}
+    return found
+
+
+def present(campaign: Campaign) -> tuple[Hypothesis | None, Floats]:
+    """All effects of the campaign's model as one hypothesis, None if it has none, and their coefficients."""
+    values = effect_values(campaign.model)
+    names = sorted(
+        {key.split(".")[1] for key in values},
+        key=lambda name: (name in INSTRUMENT, list(REGISTRY).index(name) if name in REGISTRY else 0),
+    )
+    found = [one for name in names for one in _as_hypotheses(name, values, campaign.channels)]
+    return joined([one for one, _ in found]), np.array([c for _, own in found for c in own], float)
+
+
+def joined(parts: Sequence[Hypothesis]) -> Hypothesis | None:
+    """Several effects as one hypothesis, in this order; where two set the same value the later one does."""
+    return together(*parts) if parts else None
+
+
+def _as_hypotheses(
+    name: str, values: Mapping[str, float], channels: Mapping[str, Channel]
+) -> list[tuple[Hypothesis, list[float]]]:
+    if name in INSTRUMENT:
+        return [
+            (one, coefficients_of(one, values))
+            for one in of_instruments(channels)
+            if one.effect == name and one.directions[0].name in values
+        ]
+    own = {key: value for key, value in values.items() if key.startswith(f"effects.{name}.")}
+    tried = [_at(one, own) for one in of_effect(REGISTRY[name], (own.get(f"effects.{name}.frequency", 1.0),))]
+    return [min(((one, coefficients_of(one, own)) for one in tried), key=_strain)]
+
+
+def _at(one: Hypothesis, own: Mapping[str, float]) -> Hypothesis:
+    """The hypothesis with everything but its amplitudes as the model has it."""
+    moved = {key for direction in one.directions for key in direction.changes}
+    fixed = {key: value for key, value in own.items() if key not in moved}
+    return Hypothesis(one.effect, one.directions, fixed, one.polar, one.base)
+
+
+def coefficients_of(one: Hypothesis, values: Mapping[str, float]) -> list[float]:
+    """The coefficients at which an effect has these values."""
+    if one.polar:
+        size, phase = (values[key] for key in one.polar)
+        share = size / one.directions[0].changes[one.polar[0]]
+        return [share * cos(phase), share * sin(phase)]
+    return [(values[direction.name] - one.base) / direction.changes[direction.name] for direction in one.directions]
+
+
+def _strain(found: tuple[Hypothesis, list[float]]) -> float:
+    """How far coefficients are from typical ones, infinitely where they are out of bounds."""
+    total = 0.0
+    for direction, c in zip(found[0].directions, found[1], strict=True):
+        total += abs(log(max(abs(c), 1e-9))) if direction.lower <= c <= direction.upper else float("inf")
+    return total if isfinite(total) else 1e300
+
+
+def shape_of(one: Hypothesis, longest: float) -> Hypothesis | None:
+    """What else of an effect can be fitted once its amplitude is known: a frequency, a yield curvature; None if nothing.
+
+    `longest` is the duration [s] of the longest run, which tells how sharply a frequency shows.
+    """
+    if one.effect not in REGISTRY:
+        return None
+    directions: list[tuple[Direction, float]] = []
+    for quantity in quantities(REGISTRY[one.effect]):
+        key = f"effects.{one.effect}.{quantity.name}"
+        if key not in one.fixed or quantity.name not in {*REGISTRY[one.effect].probes, "frequency"}:
+            continue
+        value = one.fixed[key]
+        size, lowest = (SLOW / longest, -1.0 / SLOW) if quantity.name == "frequency" else (YIELD * value, -0.9 / YIELD)
+        bounds = sorted(((quantity.minimum - value) / size, (quantity.maximum - value) / size))
+        directions.append((Direction(key, {key: size}, 5.0, max(bounds[0], lowest), bounds[1]), value))
+    if not directions:
+        return None
+    direction, value = directions[0]
+    return Hypothesis(one.effect, (direction,), base=value)
+
+
+def shapes_of(parts: Sequence[Hypothesis], longest: float) -> list[Hypothesis]:
+    """What else can be fitted of those effects whose shape is not free already, as a part of its own."""
+    names = [part.effect for part in parts]
+    return [shape for part in parts if names.count(part.effect) == 1 and (shape := shape_of(part, longest))]
+
+
+def require_effects(names: Sequence[str]) -> None:
+    """Raise InputError, for all at once, if some of the names are no effects."""
+    known = [*REGISTRY, *INSTRUMENT]
+    problems = [f"{name}: not an effect; {suggestion(name, known)}" for name in names if name not in known]
+    if problems:
+        raise InputError("; ".join(problems))
+
+
+def alternatives(effect: str, campaign: Campaign, frequencies: tuple[float, ...]) -> list[Hypothesis]:
+    """The ways in which a named effect may act; an instrument's fault on every channel, or on one: `sensor_gain.cw_low`.
+
+    Raises InputError for another name.
+    """
+    name, _, column = effect.partition(".")
+    known = [*REGISTRY, *INSTRUMENT]
+    if name not in known or (column and name not in INSTRUMENT):
+        raise InputError(f"{effect}: not an effect; {suggestion(name, known)}")
+    if name in REGISTRY:
+        return of_effect(REGISTRY[name], frequencies)
+    faults = [one for one in of_instruments(campaign.channels) if one.effect == name]
+    found = [one for one in faults if not column or one.directions[0].name == f"effects.{effect}"]
+    if not found:
+        columns = [one.directions[0].name.split(".", 2)[2] for one in faults]
+        raise InputError(f"{effect}: no such channel for {name}; {suggestion(column, columns)}")
+    return found
+
+
+def name_of(part: Hypothesis) -> str:
+    """The effect's name; of an instrument's fault with its channel."""
+    return part.directions[0].name.removeprefix("effects.") if part.is_instrument else part.effect
+
+
+def grouped(hypothesis: Hypothesis | None, coefficients: Sequence[float]) -> dict[str, list[tuple[Hypothesis, list[float]]]]:
+    """The parts of a hypothesis with their coefficients, by the name of the effect they belong to."""
+    found: dict[str, list[tuple[Hypothesis, list[float]]]] = {}
+    for part, own in hypothesis.shares(list(coefficients)) if hypothesis else []:
+        found.setdefault(name_of(part), []).append((part, own))
+    return found
+
+
+def short_names(effect: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Parameters of one effect by their short names."""
+    prefix = f"effects.{effect.split('.')[0]}."
+    return {key.removeprefix(prefix): value for key, value in values.items() if key.startswith(prefix)}

@@ -1,0 +1,1 @@
+"""What the model predicts for measured runs, and its parameter sensitivities."""

@@ -1,0 +1,74 @@
+"""A point in the space of what is fitted, and the model's predictions there."""
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass, field, replace
+from math import exp
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.rope.effects import RopeModel
+from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.simulator.rope import values_of
+
+from ..data.campaign import Campaign, Channel, Run
+from ..hypotheses.plant_parameters import CLOCK, NUISANCES
+from .replay import STEP, replay
+
+Floats = NDArray[np.float64]
+Predictions = dict[tuple[str, str], Floats]
+
+
+@dataclass(frozen=True)
+class Point:
+    """Nuisance coefficients by name (0: as the model file has it), and model keys that effects set.
+
+    `shifts` are added to such keys in single runs, by the run's file.
+    """
+
+    plant: Mapping[str, float] = field(default_factory=dict)
+    effects: Mapping[str, float] = field(default_factory=dict)
+    shifts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+    def changes(self, model: RopeModel, run: Run) -> dict[str, Any]:
+        """Everything that differs from the model file in a run at this point."""
+        base = values_of(model) | {key: value for key, value in run.changes.items() if isinstance(value, (int, float))}
+        changed: dict[str, Any] = dict(run.changes) | dict(self.effects)
+        for key, shift in self.shifts.get(run.file, {}).items():
+            changed[key] = changed.get(key, base.get(key, 0.0)) + shift
+        if late := self.plant.get(CLOCK, 0.0):
+            known = model.effects.sensor_delay or {}
+            keys = {f"effects.sensor_delay.{column}": known.get(column, 0.0) for column in run.values}
+            changed |= {key: changed.get(key, delay) + late for key, delay in keys.items()}
+        for one in NUISANCES:
+            if (coefficient := self.plant.get(one.name, 0.0)) and one.changes:
+                value = base[one.name] * exp(coefficient) if one.relative else base[one.name] + coefficient
+                # A fit may lean on a parameter that it cannot see; it must not leave what a model accepts.
+                changed[one.name] = min(max(value, DECLARED[one.name].minimum), DECLARED[one.name].maximum)
+        return changed
+
+
+def submit(
+    campaign: Campaign, runs: Sequence[Run], point: Point, executor: Executor, coarse: float = 1.0
+) -> list[Future[dict[str, Floats]]]:
+    """Start the replays of some runs at a point, with elements and steps `coarse` times as long."""
+    there = [moved(campaign.model, run, point, coarse) for run in runs]
+    return [executor.submit(predict, campaign.model, run, campaign.channels, coarse * STEP) for run in there]
+
+
+def moved(model: RopeModel, run: Run, point: Point, coarse: float = 1.0) -> Run:
+    """The run with all that differs from the model file at a point, with elements `coarse` times as long."""
+    length = {"rope.element_length": coarse * model.rope.element_length} if coarse != 1.0 else {}
+    return replace(run, changes=point.changes(model, run) | length)
+
+
+def predict(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: float) -> dict[str, Floats]:
+    """Channels of one run as the model has them."""
+    return replay(model, run, channels, step).values
+
+
+def gathered(runs: Sequence[Run], jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions:
+    """Predictions of runs by (file, column)."""
+    return {(run.file, column): value for run, job in zip(runs, jobs, strict=True) for column, value in job.result().items()}

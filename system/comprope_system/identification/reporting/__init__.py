@@ -1,0 +1,1 @@
+"""Results of the identification as sentences, tables, figures and HTML pages."""

@@ -1,0 +1,1 @@
+"""What correlates with the residual, and which force would explain it."""

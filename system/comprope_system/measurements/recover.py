@@ -1,0 +1,131 @@
+"""The smooth trip behind a noisy encoder signal.
+
+A car driven by a jerk-limited controller follows a profile of seven phases closely, so that profile
+is fitted first: a dozen numbers from thousands of samples leave almost none of the noise. What the
+car does beyond it (lag, overshoot, creeping) is added by a smoothing spline, only if the signal
+speaks for it. A car that follows no such profile is described by the spline alone.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from comprope.errors import InputError
+
+from .jerk_limited_profile import Fit, Guess, fit_profile, inliers
+from .smoothing_spline import Smoothed, smooth
+from .trip import Piece, Trip, constant
+
+Floats = NDArray[np.float64]
+
+REST = 0.1  # s at rest that a record must begin with
+LEVEL = 0.25  # s at an end of the record whose median is the level there
+BEFORE, AFTER = 1.0, 2.0  # s: how far a deviation from the profile may reach beyond its ends
+LEAST_NOISE = 1e-6  # m; below it a signal is as good as exact
+EVIDENCE = 10.0  # of -2 log likelihood: what a spline must gain to be believed
+
+
+def recover_trip(time: ArrayLike, position: ArrayLike) -> Trip:
+    """The trip behind `position` [m] at `time` [s], both (n,), unevenly sampled, with gaps (NaN) and outliers.
+
+    Raises `InputError` if times do not increase, fewer than 20 samples are numbers, or the car is
+    not at rest at the beginning. A record that ends before the trip does is accepted.
+    """
+    t, x = _checked(np.asarray(time, dtype=float), np.asarray(position, dtype=float))
+    noise = _noise(t, x)
+    guess, arrives = _guess(t, x, noise)
+    if guess is None:
+        return Trip((Piece(constant(float(np.mean(x))), float(t[0]), float(t[0])),), max(float(np.std(x)), noise), "rest")
+    free = _free(t, x, noise, guess, arrives)
+    if not arrives:
+        return free[0]
+    fit = fit_profile(t, x, noise, guess)
+    shaped = _shaped(t, x, fit)
+    return min((free, shaped), key=lambda candidate: candidate[1])[0]
+
+
+def _checked(time: Floats, position: Floats) -> tuple[Floats, Floats]:
+    known = np.isfinite(position)
+    if time.ndim != 1 or time.shape != position.shape or not np.all(np.isfinite(time)):
+        raise InputError("time: a finite number is needed in every row")
+    if np.any(np.diff(time) <= 0.0):
+        row = int(np.argmax(np.diff(time) <= 0.0)) + 2
+        raise InputError(f"time = {time[row - 1]:g} s in row {row}: must be later than the row before")
+    if known.sum() < 20:
+        raise InputError(f"position: {known.sum()} numbers; at least 20 are needed to recover a trip")
+    return time[known], position[known]
+
+
+def _noise(time: Floats, position: Floats) -> float:
+    """Standard deviation [m] of the signal's noise, from each sample against the line between its neighbours."""
+    before, after = np.diff(time)[:-1], np.diff(time)[1:]
+    share = before / (before + after)
+    gap = position[1:-1] - (1.0 - share) * position[:-2] - share * position[2:]
+    close = before + after <= 3.0 * np.median(before + after)
+    scaled = np.abs(gap / np.sqrt(1.0 + share**2 + (1.0 - share) ** 2))[close]
+    return max(1.4826 * float(np.median(scaled)), _resolution(position) / 12.0**0.5, LEAST_NOISE)
+
+
+def _resolution(position: Floats) -> float:
+    """The smallest step of a signal [m]: rounding to it is noise too, which a car at rest does not show."""
+    steps = np.diff(np.unique(np.round(position, 9)))
+    return float(steps.min()) if len(steps) else 0.0
+
+
+def _guess(time: Floats, position: Floats, noise: float) -> tuple[Guess | None, bool]:
+    """Where the trip roughly is, None for a car that stays; and whether the record reaches its end."""
+    first = float(np.median(position[time <= time[0] + LEVEL]))
+    last = float(np.median(position[time >= time[-1] - LEVEL]))
+    away, back = _lasting(np.abs(position - first) > 6.0 * noise), _lasting(np.abs(position - last)[::-1] > 6.0 * noise)
+    if away is None or back is None or abs(last - first) < 6.0 * noise:
+        return None, True
+    start, stop = float(time[away]), float(time[len(time) - 1 - back])
+    if start - time[0] < REST:
+        raise InputError(f"position: the car moves from the first sample on; it must be at rest for {REST} s before the trip")
+    quarter, three = (time[np.argmax((position - first) / (last - first) > part)] for part in (0.25, 0.75))
+    speed = abs(last - first) / max(2.0 * float(three - quarter), 0.1)
+    return Guess(first, last - first, start, stop, speed), time[-1] - stop >= REST
+
+
+def _lasting(moved: NDArray[np.bool_], count: int = 5) -> int | None:
+    """Index of the first of `count` successive true values: single ones are outliers."""
+    runs = np.lib.stride_tricks.sliding_window_view(moved, count).all(axis=1)
+    return int(np.argmax(runs)) if runs.any() else None
+
+
+def _free(time: Floats, position: Floats, noise: float, guess: Guess, arrives: bool) -> tuple[Trip, float]:
+    """The trip as a spline alone, outliers left out; and its -2 log likelihood."""
+    start = max(guess.start - BEFORE, float(time[0]))
+    stop = min(guess.stop + AFTER, float(time[-1])) if arrives else float(time[-1])
+    used = _near_neighbours(time, position, noise)
+    smoothed = smooth(time[used], position[used], start, stop, arrives)
+    used &= inliers((position - smoothed.piece.value(time)) / noise)
+    smoothed = smooth(time[used], position[used], start, stop, arrives)
+    return _trip((smoothed.piece,), time[used], position[used], "spline"), smoothed.criterion
+
+
+def _near_neighbours(time: Floats, position: Floats, noise: float) -> NDArray[np.bool_]:
+    """Which samples are near the lines through neighbours on both sides, near and farther ones."""
+    index = np.arange(len(time))
+    lines = []
+    for reach in (1, 2, 3, 4, 5):
+        left, right = np.clip(index - reach, 0, None), np.clip(index + reach, None, len(time) - 1)
+        share = (time - time[left]) / np.maximum(time[right] - time[left], 1e-9)
+        lines.append(position[left] + share * (position[right] - position[left]))
+    reach_time = time[np.clip(index + 3, None, len(time) - 1)] - time[np.clip(index - 3, 0, None)]
+    return np.abs(position - np.median(lines, axis=0)) < 8.0 * noise + 0.5 * reach_time**2
+
+
+def _shaped(time: Floats, position: Floats, fit: Fit) -> tuple[Trip, float]:
+    """The trip as a profile, with what it leaves over as a spline if the signal speaks for it."""
+    t, x = time[fit.used], position[fit.used]
+    start, stop = max(fit.piece.start - BEFORE, float(time[0])), min(fit.piece.stop + AFTER, float(time[-1]))
+    rest: Smoothed = smooth(t, x - fit.piece.value(t), start, max(stop, start + 1.0))
+    price = len(fit.parameters) * float(np.log(len(t)))
+    if rest.constant_criterion - rest.criterion < EVIDENCE:
+        return _trip((fit.piece,), t, x, "profile"), rest.constant_criterion + price
+    return _trip((fit.piece, rest.piece), t, x, "profile and spline"), rest.criterion + price
+
+
+def _trip(pieces: tuple[Piece, ...], time: Floats, position: Floats, kind: str) -> Trip:
+    bare = Trip(pieces, 0.0, kind)
+    return Trip(pieces, float(np.std(position - bare.position(time))), kind)

@@ -1,0 +1,78 @@
+"""Where a sweep runs: in this process, in processes of this machine, or on a Dask cluster."""
+
+import importlib
+import multiprocessing
+import os
+from collections.abc import Iterator
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import contextmanager
+
+from comprope.errors import InputError, SimulationError
+
+DASK = "dask://"
+WAIT = 10  # s to wait for a cluster
+
+
+@contextmanager
+def workers(jobs: int | None = None, address: str | None = None, *, fresh: bool = False) -> Iterator[Executor | None]:
+    """An executor of concurrent.futures: a Dask cluster's by its address dask://HOST:PORT, else `jobs` processes.
+
+    By default there is a process for each core; with `jobs` 1 there is no executor, and a sweep runs in this
+    process, unless a `fresh` one is asked for. Raises `InputError` for an address of another kind or where Dask is not installed,
+    `SimulationError` where nobody answers.
+    """
+    if address is not None:
+        with _dask(address) as executor:
+            yield executor
+    elif (count := jobs or os.cpu_count() or 1) == 1 and not fresh:
+        yield None
+    else:
+        # Each worker has a core to itself: threads of its linear algebra would only wait for one another.
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+        # A fresh interpreter for each worker: forking one that has threads (a progress bar's) is not safe.
+        pool = ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn"))
+        try:
+            yield pool
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+@contextmanager
+def _dask(address: str) -> Iterator[Executor]:
+    if not address.startswith(DASK):
+        raise InputError(f"--executor {address}: {DASK}HOST:PORT is accepted, the address of a Dask scheduler")
+    try:
+        distributed = importlib.import_module("distributed")
+    except ImportError:
+        raise InputError(f"--executor {address}: Dask is not installed; pip install 'comprope[dask]'") from None
+    try:
+        client = distributed.Client(f"tcp://{address.removeprefix(DASK)}", timeout=WAIT)
+    except (OSError, ValueError) as error:
+        raise SimulationError(f"--executor {address}: no Dask scheduler answers there: {error}") from None
+    with client:
+        executor: Executor = client.get_executor()
+        try:
+            yield executor
+        finally:
+            executor.shutdown(wait=False)
+
+
+@contextmanager
+def threads() -> Iterator[Executor]:
+    """Threads of this process, for a few replays: their kernels run side by side."""
+    from comprope.rope.compiler.entry_points import compiled
+
+    compiled()  # once, before the threads ask for it
+    with ThreadPoolExecutor(os.cpu_count() or 1) as executor:
+        yield executor
+
+
+@contextmanager
+def processes(jobs: int | None) -> Iterator[Executor]:
+    """Processes, for hundreds of replays; with one job, this process."""
+    with workers(jobs) as executor:
+        if executor is not None:
+            yield executor
+        else:
+            with ThreadPoolExecutor(1) as own:
+                yield own

@@ -1,0 +1,146 @@
+"""Many independent runs at once, on any executor, that go on where they were interrupted.
+
+A sweep is a function of one case and a list of cases. Cases and results are what JSON can hold. Each
+result goes into a file of JSON lines as it comes, under a key made of the function's name, the case and
+the program's own source; a sweep started again reads that file and runs only what is missing.
+"""
+
+import hashlib
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor, Future, as_completed
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+import comprope
+from comprope.atomic_files import require_writable
+from comprope.errors import CompropeError, InputError, SimulationError
+
+from .. import prescribed_trip
+
+Case = Mapping[str, Any]
+Task = Callable[[Case], Any]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a case: its value, or why it failed."""
+
+    case: Case
+    value: Any = None
+    failed: str = ""
+
+
+def sweep(
+    task: Task, cases: Sequence[Case], executor: Executor | None = None, store: Path | None = None, label: str = "running"
+) -> list[Outcome]:
+    """`task(case)` for each case, in their order; without an executor one after the other in this process.
+
+    `task` is a function at the top of a module that the executor's workers can import. A case that raises a
+    `CompropeError` has failed, which is told in its outcome; failed cases are run again next time.
+    """
+    keys = [key_of(task, case) for case in cases]
+    done = _read(store) if store else {}
+    missing = {key: case for key, case in zip(keys, cases, strict=True) if key not in done}
+    with _bar(label, len(set(keys)), len(set(keys)) - len(missing)) as advance:
+        for key, outcome in _run(task, missing, executor):
+            done[key] = outcome
+            if store:
+                _append(store, key, outcome)
+            advance()
+    return [done[key] for key in keys]
+
+
+def values(outcomes: Sequence[Outcome]) -> list[Any]:
+    """The values of outcomes; raises `SimulationError` that names the first case that failed, if one has."""
+    for outcome in outcomes:
+        if outcome.failed:
+            raise SimulationError(f"{dict(outcome.case)}: {outcome.failed}")
+    return [outcome.value for outcome in outcomes]
+
+
+def key_of(task: Task, case: Case) -> str:
+    """The key of a case's result: a hash of the function's name and module, the case, and the source of the models.
+
+    A case must therefore hold all that its result depends on: a model as a table, not the name of its file.
+    """
+    text = json.dumps([task.__qualname__, _source(task.__module__), case], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+@cache
+def _source(module: str) -> str:
+    """A hash of the source of the models and of what runs them: results of another version must not be taken."""
+    folder = Path(comprope.__file__).parent
+    stepping = Path(prescribed_trip.__file__)
+    paths = [*sorted(folder.rglob("*.py")), stepping, Path(sys.modules[module].__file__ or "")]
+    digest = hashlib.sha256(module.encode())
+    for path in paths:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _run(task: Task, cases: Mapping[str, Case], executor: Executor | None) -> Iterator[tuple[str, Outcome]]:
+    """Keys and outcomes as they come."""
+    if executor is None:
+        for key, case in cases.items():
+            yield key, attempt(task, case)
+        return
+    futures: dict[Future[Outcome], str] = {executor.submit(attempt, task, case): key for key, case in cases.items()}
+    try:
+        for future in as_completed(futures):
+            yield futures[future], future.result()
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def attempt(task: Task, case: Case) -> Outcome:
+    """Run one case, on whatever machine."""
+    try:
+        return Outcome(case, task(case))
+    except CompropeError as error:
+        return Outcome(case, failed=str(error))
+
+
+def _read(store: Path) -> dict[str, Outcome]:
+    """Outcomes in a file by key, but for those that failed; a last line cut short by an interruption is ignored."""
+    try:
+        lines = store.read_text(encoding="utf-8").splitlines() if store.exists() else []
+    except (OSError, UnicodeDecodeError):
+        raise InputError(f"{store}: cannot be read; a file of results by an earlier sweep is accepted") from None
+    found = {}
+    for line in lines:
+        try:
+            row = json.loads(line)
+            found[row["key"]] = Outcome(row["case"], row["value"])
+        except (json.JSONDecodeError, KeyError, TypeError):
+            continue
+    return found
+
+
+def _append(store: Path, key: str, outcome: Outcome) -> None:
+    """Add one line, begun on a line of its own, whatever an interruption left behind."""
+    if not store.exists():
+        require_writable(store)
+    told = {"failed": outcome.failed} if outcome.failed else {"value": outcome.value}
+    cut = store.exists() and store.stat().st_size > 0 and not store.read_bytes().endswith(b"\n")
+    with store.open("a", encoding="utf-8") as file:
+        file.write("\n" * cut + json.dumps({"key": key, "case": dict(outcome.case)} | told) + "\n")
+
+
+@contextmanager
+def _bar(label: str, total: int, done: int) -> Iterator[Callable[[], None]]:
+    """A bar on the terminal that counts cases; gives the function that counts one."""
+    parts = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    console = Console(file=sys.stderr)
+    with Progress(*parts, console=console, transient=True, disable=not console.is_terminal) as progress:
+        task = progress.add_task(label, total=total, completed=done)
+        yield lambda: progress.advance(task)

@@ -1,0 +1,78 @@
+"""A rope carried along a jerk-limited trip, without drive and without FMU: what studies and verification run.
+
+The car follows the trip exactly and the counterweight mirrors it. Within an interval the ends follow
+quintics through position, velocity and acceleration at both of its ends, which is the trip itself
+but for the corners of its jerk.
+"""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.drive.parameters import Profile
+from comprope.drive.reference_trajectory import Course
+from comprope.drive.s_curve import Motion, Trip, plan
+from comprope.rope.parameters import Base
+from comprope.rope.simulator.rope import CompensationRope
+
+Floats = NDArray[np.float64]
+
+INTERVAL = 0.02  # s between samples
+START = 0.5  # s at rest before a trip
+
+
+def trip_of(distance: float, speed: float, acceleration: float, jerk: float, origin: float = 0.0) -> Trip:
+    """The trip up over `distance` [m] within the limits of speed [m/s], acceleration [m/s2] and jerk [m/s3]."""
+    limits = Profile(speed=speed, acceleration=acceleration, jerk=jerk)
+    return plan(limits, origin, origin + distance, START)
+
+
+def ends_path(model: Base, trip: Trip | Course, begin: float, end: float) -> Floats:
+    """The way of both ends between two times [s], as `CompensationRope.step` takes it."""
+    height, radius = model.shaft.height, model.sheave.radius
+    rows = [_moments(trip.at(time), height, radius) for time in (begin, end)]
+    return np.concatenate(rows, axis=1).ravel()
+
+
+def _moments(motion: Motion, height: float, radius: float) -> Floats:
+    """Position, velocity and acceleration (4, 3) of car x, car y, counterweight x and y; x is down."""
+    x, v, a = motion.position, motion.velocity, motion.acceleration
+    return np.array([[-x, -v, -a], [-radius, 0.0, 0.0], [x - height, v, a], [radius, 0.0, 0.0]])
+
+
+def ride(rope: CompensationRope, trip: Trip | Course, until: float, interval: float = INTERVAL) -> Iterator[float]:
+    """Settle the rope at the trip's origin and take it along; gives the time [s] of each sample, 0 first.
+
+    Raises `SimulationError` where a step cannot be saved.
+    """
+    model = rope.model
+    rope.settle(trip.origin, model.shaft.height - trip.origin)
+    yield 0.0
+    for k in range(max(1, round(until / interval))):
+        rope.step(interval, ends_path(model, trip, k * interval, (k + 1) * interval))
+        yield (k + 1) * interval
+
+
+def record(
+    model: Base, trip: Trip | Course, until: float, look: Callable[[CompensationRope], Floats]
+) -> tuple[Floats, Floats]:
+    """Times (n,) and what `look` sees of the rope at each of them (n, ...)."""
+    rope = CompensationRope(model)
+    seen = [(time, look(rope)) for time in ride(rope, trip, until)]
+    return np.array([time for time, _ in seen]), np.array([values for _, values in seen])
+
+
+def side_shape(rope: CompensationRope, side: str, heights: Floats) -> Floats:
+    """Outward displacement [m] of a side at `heights` [m]; NaN above its end and below the axle.
+
+    Linear between nodes; a rope that folds back is read at its nodes nearest to the end.
+    """
+    n, q = rope.n, rope.state.q
+    x, y, axle = q[:n], q[n + 1 : -1], q[n]
+    if side == "counterweight":
+        x, y = x[::-1], y[::-1]
+    sign = 1.0 if side == "counterweight" else -1.0
+    below = np.flatnonzero((x > axle) | (np.diff(x, append=np.inf) <= 0.0))
+    stop = int(below[0]) + 1 if below.size else len(x)
+    return np.interp(-heights, x[:stop], sign * y[:stop] - rope.model.sheave.radius, left=np.nan, right=np.nan)

@@ -1,0 +1,56 @@
+"""The paper's two installations, as far as its text states them, with the presets' values for the rest."""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from comprope.drive.s_curve import Trip
+from comprope.rope.effects import RopeModel
+from comprope.rope.model_file import as_table, load, validated, with_changes
+from comprope.rope.parameters import Base
+
+from ..prescribed_trip import trip_of
+from . import model_path
+
+TOWER, BUILDING = "tower50", "building200"
+LIMITS = {  # speed [m/s], acceleration [m/s2] of Tables 2 and 3; jerk [m/s3]: customary, and from the 10.2 s of Fig. 7
+    TOWER: (2.5, 0.8, 0.8),
+    BUILDING: (9.0, 1.1, 0.93),
+}
+
+
+@cache
+def _loaded(name: str) -> RopeModel:
+    return load(model_path(name))
+
+
+def building(name: str, changes: Mapping[str, Any] | None = None) -> RopeModel:
+    """A preset or model file with some values changed."""
+    return with_changes(_loaded(name), changes or {})
+
+
+def with_sheave(model: Base | str, mass: float) -> dict[str, float]:
+    """Changes that give a building a sheave of another mass [kg], its inertia in proportion: the same disc, lighter."""
+    sheave = (_loaded(model) if isinstance(model, str) else model).sheave
+    return {"sheave.mass": mass, "sheave.inertia": sheave.inertia * mass / sheave.mass}
+
+
+def limits(name: str, distance: float) -> dict[str, float]:
+    """A trip up from the bottom landing over a distance [m] as a case has it; a model file runs as the 200 m building does."""
+    speed, acceleration, jerk = LIMITS.get(name, LIMITS[BUILDING])
+    return {"distance": distance, "speed": speed, "acceleration": acceleration, "jerk": jerk}
+
+
+def up(name: str, distance: float) -> Trip:
+    """That trip."""
+    return trip_of(**limits(name, distance))
+
+
+def table(name: str, changes: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """A building as a case has it: the whole model, so that a worker needs no file and a changed file is another case."""
+    return as_table(building(name, changes))
+
+
+def model_in(case: Mapping[str, Any], changes: Mapping[str, Any] | None = None) -> RopeModel:
+    """The model of a case, with some values changed."""
+    return with_changes(validated(case["model"], "case"), changes or {})

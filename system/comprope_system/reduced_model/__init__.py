@@ -1,0 +1,1 @@
+"""A reduced-order model of rope, sheave and hoist, fast enough for searches."""

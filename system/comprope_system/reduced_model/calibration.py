@@ -1,0 +1,61 @@
+"""How far the full model's rope stands off the sheave at rest, speeding up and running: measured on a short ride."""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.drive.parameters import Profile
+from comprope.drive.s_curve import plan
+from comprope.rope.effects import RopeModel
+from comprope.rope.model_file import as_table, validated
+from comprope.rope.simulator.rope import CompensationRope
+
+from ..prescribed_trip import record, side_shape
+from .string_dynamics import STARTS, Rope, at_rest, rope_of
+
+Floats = NDArray[np.float64]
+
+LIMITS = Profile(speed=5.0, acceleration=0.6, jerk=0.8)
+NEAR, FAR, PLACES = 5.0, 9.0, 5  # where the offset is read: so many bending lengths above the axle
+LEAST = 70.0  # m, of the low shaft
+ELSEWHERE = ("building_sway", "attachment_offset", "sheave_eccentricity")  # effects that swing the rope by themselves
+
+
+@lru_cache(maxsize=16)
+def calibrated(model: RopeModel) -> Rope:
+    """A side of the rope with `held` measured on the full model's sheave, in a low shaft; takes a second or two.
+
+    Raises `InputError` where the rope does not wrap the sheave.
+    """
+    rope = rope_of(model)
+    bending = rope.bending_length
+    heights = np.linspace(NEAR, FAR, PLACES) * bending - model.shaft.pit
+    low = _low(model, LEAST + 2.0 * FAR * bending)
+    trip = plan(LIMITS, 0.1 * low.shaft.height, 0.9 * low.shaft.height, 0.5)
+
+    def look(full: CompensationRope) -> Floats:
+        return np.array([side_shape(full, side, heights) for side in ("car", "counterweight")])
+
+    times, seen = record(low, trip, trip.end_time + 1.0, look)
+    motions = [trip.at(time) for time in times]
+    car = np.array([one.position for one in motions])
+    speed, pull = np.array([one.velocity for one in motions]), np.array([one.acceleration for one in motions])
+    rows, values = [], []
+    for k, sign in enumerate((1.0, -1.0)):
+        length = low.shaft.pit + (car if sign > 0.0 else low.shaft.height - car)
+        shape = np.array([at_rest(rope, one, (heights + low.shaft.pit) / one)[0] for one in length[:, None]]) / rope.offset
+        own = rope.bending_stiffness / (2.0 * rope.radius * (rope.weight + sign * rope.turning * pull))
+        values.append((seen[:, k] / shape).mean(axis=1) / own)
+        rows.append(np.array([np.ones_like(speed), sign * speed, speed**2, np.tanh(sign * speed / STARTS)]).T)
+    held, *_ = np.linalg.lstsq(np.concatenate(rows), np.concatenate(values), rcond=None)
+    return Rope(**{**rope.__dict__, "held": tuple(float(one) for one in held)})
+
+
+def _low(model: RopeModel, height: float) -> RopeModel:
+    """The same rope and sheave in a shaft of `height` [m], without what swings it from elsewhere and without sensors."""
+    table = as_table(model)
+    table["shaft"] = {**table["shaft"], "height": float(height)}
+    table["effects"] = {name: part for name, part in table.get("effects", {}).items() if name not in ELSEWHERE}
+    table["sensors"] = []
+    return validated(table, "calibration")

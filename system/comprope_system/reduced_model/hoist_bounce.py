@@ -1,0 +1,90 @@
+"""Car and counterweight on their hoist ropes while the traction sheave's rim follows the reference.
+
+Each bounces about the rim with the period and damping of the closed loop of servo and hoist with the car where it is:
+
+    d'' + 2 z w d' + w^2 d = -a_ref     d: how far the end is ahead of the rim's reference, up for the car
+
+w and z are those of the loop's pole nearest to sqrt(EA / (L m)) of the end's own rope. What a car's bounce does to the rope it
+does by its acceleration; the rope's pull on the car is left out.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import control
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.drive.hoist_dynamics import lumps
+from comprope.drive.parameters import Drive
+from comprope.drive.stability_margins import open_loop
+
+from .sampled_motion import Moves
+
+Floats = NDArray[np.float64]
+
+PLACES = 13  # car positions at which the loop is looked at
+
+
+@dataclass(frozen=True)
+class Hoist:
+    """Frequencies [rad/s] and damping ratios of car and counterweight (2, PLACES) with the car at `heights` (PLACES,) [m]."""
+
+    heights: Floats
+    frequency: Floats
+    damping: Floats
+
+    def period(self, car: float) -> float:
+        """The slower bounce's period [s] with the car at a height [m]."""
+        return float(2.0 * np.pi / min(np.interp(car, self.heights, one) for one in self.frequency))
+
+    def ends(self, moved: Moves) -> tuple[Floats, Floats]:
+        """What the bounce adds to the motion of car and of counterweight: way, speed, acceleration (3, n) each, up positive."""
+        added = []
+        for k, sign in enumerate((1.0, -1.0)):
+            w = np.interp(moved.position, self.heights, self.frequency[k])
+            z = np.interp(moved.position, self.heights, self.damping[k])
+            added.append(_bounced(moved.dt, sign * moved.acceleration, w, z))
+        return added[0], added[1]
+
+
+def hoist_of(drive: Drive) -> Hoist:
+    """The bounces of a drive's car and counterweight; kept, whatever trips the drive makes."""
+    return _hoist(drive.standing)
+
+
+@lru_cache(maxsize=8)
+def _hoist(drive: Drive) -> Hoist:
+    heights = np.linspace(0.0, drive.shaft.height, PLACES)
+    found = np.array([_bounces(drive, float(height)) for height in heights])
+    return Hoist(heights, found[:, 0].T, found[:, 1].T)
+
+
+def _bounces(drive: Drive, height: float) -> Floats:
+    """Frequencies and damping ratios (2, 2) of car and counterweight with the car at a height."""
+    parts, stiffness = lumps(drive, height), drive.plant.rope_stiffness
+    own = np.sqrt(stiffness / np.array([
+        parts.car_rope * parts.car, parts.counterweight_rope * parts.counterweight
+    ]))  # fmt: skip
+    poles = np.log(control.feedback(open_loop(drive, height), 1).poles().astype(complex)) / drive.servo.sample_period
+    swinging = poles[(poles.imag > 0.0) & (np.abs(poles.imag) > np.abs(poles.real))]
+    if not len(swinging):
+        return np.array([own, np.full(2, 0.5)])
+    nearest = [swinging[int(np.argmin(np.abs(np.log(np.abs(swinging) / w))))] for w in own]
+    return np.array([np.abs(nearest), -np.real(nearest) / np.abs(nearest)])
+
+
+@numba.njit(cache=True)
+def _bounced(dt, a, w, z):  # type: ignore[no-untyped-def]
+    """d, d' and d'' (3, n) by the implicit midpoint rule."""
+    found, h = np.zeros((3, len(a))), 0.5 * dt
+    d = u = 0.0
+    for i in range(len(a) - 1):
+        ww, zz, push = 0.5 * (w[i] + w[i + 1]), 0.5 * (z[i] + z[i + 1]), 0.5 * (a[i] + a[i + 1])
+        middle = (u - h * (push + ww * ww * d)) / (1.0 + 2.0 * h * zz * ww + h * h * ww * ww)
+        d, u = d + dt * middle, 2.0 * middle - u
+        found[0, i + 1], found[1, i + 1] = d, u
+    for i in range(len(a)):
+        found[2, i] = -a[i] - 2.0 * z[i] * w[i] * found[1, i] - w[i] * w[i] * found[0, i]
+    return found

@@ -1,0 +1,150 @@
+"""One side of the rope while the car travels: a string of changing length, tension and speed, in finite elements.
+
+The side hangs from its end down to the axle. With s the height above the axle, L(t) the side's length, v the rope's speed
+up, xi = s / L, a string of mass rho per length that runs through space with its end obeys
+
+    rho D2y/Dt2 + c Dy/Dt = (T y')',   D/Dt = d/dt + (v / L)(1 - xi) d/dxi,   T = N + rho v^2 + rho (g + v') s
+
+N = half the weight on the axle, with half the pulls that turn the sheave and lift it: (J / r^2 + rho pi r) times half the
+difference of both ends' accelerations, (m + rho pi r) times half their sum. What presses the rope on the groove does not
+depend on the speed. The rope's stiffness holds it off the axle's vertical by
+
+    b = EI / (2 r N) (g0 + g1 v + g2 v^2 + g3 sgn v)
+
+where g0 is near 1, g1 about -D / (EI sqrt(EI / N)) for a bending damping D, which makes rope that runs off the sheave
+straighten late, and g3 nought but for bending hysteresis; `calibrate.py` measures them on the full model. So what swings the
+rope is b, which follows speed and acceleration, and the tension, which changes its shape. With
+y = b at the axle and 0 at the end the weak form gives, per rho L, with the constant matrices of `elements.py`
+
+    M y'' + (2 (v/L) G + c/rho M) y' + (N/(rho L^2) K + (v/L)^2 (K - S) + (g + v')/L H + (v' + c/rho v)/L G) y = 0
+
+Left out: the sheave's bounce, tension from swinging, bending away from the sheave, effects other than external damping.
+Unlike the full model it holds only where the rope wraps the sheave, N r^2 > EI / 2.
+"""
+
+from dataclasses import dataclass
+from math import pi
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+
+from comprope.errors import InputError
+from comprope.rope.parameters import Base
+
+from .finite_elements import ELEMENTS, matrices, nodes, whole
+
+Floats = NDArray[np.float64]
+
+STARTS = 0.02  # m/s: below it friction inside the rope has not turned round yet
+
+
+@dataclass(frozen=True)
+class Rope:
+    """What one side of a rope is: mass per length [kg/m], weight on the groove of a side [N], the pull that turns the sheave
+    over acceleration [kg], the same that lifts it [kg], bending stiffness [N m2], radius [m], damping over mass [1/s],
+    gravity [m/s2]; `held`: g0 ... g3.
+    """
+
+    mass_per_length: float
+    weight: float
+    turning: float
+    lifting: float
+    bending_stiffness: float
+    radius: float
+    damping: float
+    gravity: float
+    held: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+
+    def offset_at(self, press: Floats, speed: Floats) -> Floats:
+        """How far outward the rope stands off at the axle's height [m], pressed by `press` [N], running up at `speed` [m/s]."""
+        g0, g1, g2, g3 = self.held
+        return (
+            self.bending_stiffness
+            / (2.0 * self.radius * press)
+            * (g0 + g1 * speed + g2 * speed**2 + g3 * np.tanh(speed / STARTS))
+        )
+
+    @property
+    def bending_length(self) -> float:
+        """How far its stiffness reaches along the rope from where it is bent [m]: sqrt(EI / N)."""
+        return float((self.bending_stiffness / self.weight) ** 0.5)
+
+    @property
+    def offset(self) -> float:
+        """How far outward the rope stands off at the axle's height, at rest [m]."""
+        return float(self.offset_at(np.array(self.weight), np.array(0.0)))
+
+
+def rope_of(model: Base) -> Rope:
+    """A side of the model's rope; raises `InputError` where the sheave is too light for the rope to wrap it."""
+    rope, sheave, g = model.rope, model.sheave, model.shaft.gravity
+    wrapped = rope.mass_per_length * pi * sheave.radius
+    weight, least = 0.5 * g * (sheave.mass + wrapped), rope.bending_stiffness / (2.0 * sheave.radius**2)
+    if weight <= least:
+        raise InputError(
+            f"sheave.mass = {sheave.mass:g} kg: more than {2.0 * least / g - wrapped:.4g} kg is accepted for tuning; a lighter "
+            "sheave hangs in a free loop of rope, which the search does not know"
+        )
+    turning, lifting = 0.5 * (sheave.inertia / sheave.radius**2 + wrapped), 0.5 * (sheave.mass + wrapped)
+    damping = rope.external_damping / rope.mass_per_length
+    return Rope(rope.mass_per_length, weight, turning, lifting, rope.bending_stiffness, sheave.radius, damping, g)
+
+
+def still_modes(rope: Rope, length: float) -> tuple[Floats, Floats, Floats]:
+    """At standstill: squares of the angular frequencies (k,), modes (n - 1, k) at the inner nodes, stiffness over rho L.
+
+    The modes have unit mass; the slowest is the first.
+    """
+    M = matrices()
+    stiffness = rope.weight / rope.mass_per_length / length**2 * M.K + rope.gravity / length * M.H
+    squares, modes = eigh(whole(stiffness), whole(M.mass))
+    return squares, modes, stiffness
+
+
+def at_rest(rope: Rope, length: Floats, xi: Floats) -> Floats:
+    """The outward shape at rest (m, n) [m] at places xi (n,) of sides as long as `length` (m,) [m]: (T y')' = 0."""
+    slack = rope.mass_per_length * rope.gravity * np.asarray(length)[:, None] / rope.weight
+    return np.asarray(rope.offset * (1.0 - np.log1p(slack * xi) / np.log1p(slack)))
+
+
+def sway(rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, press: Floats) -> Floats:
+    """The outward displacement at the nodes (m, n + 1) [m] at times `dt` [s] apart, from rest.
+
+    `length` [m], `speed` and `acceleration` of the end, up positive [m/s, m/s2], `press` [N] on the groove, each (m,).
+    """
+    M, b = matrices(), rope.offset_at(press, speed)
+    found = np.zeros((len(length), ELEMENTS + 1))
+    found[0] = at_rest(rope, length[:1], nodes())[0] * b[0] / rope.offset
+    found[:, 0] = b
+    _march(dt, length, speed, acceleration, press / rope.mass_per_length, rope.gravity, rope.damping,
+           M.mass, M.G, M.S, M.K, M.H, found)  # fmt: skip
+    return found
+
+
+@numba.njit(cache=True)
+def _march(dt, L, v, a, press, g, c, mass, G, S, K, H, found):  # type: ignore[no-untyped-def]
+    """The rows of `found` after the first by the implicit midpoint rule on y and the momenta p = mass y', so that b need not be
+    smooth; a band is solved by elimination downwards and back.
+    """
+    h, k = 0.5 * dt, mass.shape[1]
+    p, u, slope, stiff = np.zeros(k), np.zeros(k + 2), np.zeros(k + 1), np.zeros(3)
+    for i in range(len(L) - 1):
+        y, length, speed, up = found[i], 0.5 * (L[i] + L[i + 1]), 0.5 * (v[i] + v[i + 1]), 0.5 * (a[i] + a[i + 1])
+        n, rate = 0.5 * (press[i] + press[i + 1]) / length**2, speed / length
+        way, gravity, level = up / length + c * rate, (g + up) / length, n + rate**2
+        u[0] = (found[i + 1, 0] - y[0]) / dt
+        for j in range(k):
+            push = p[j]
+            for m in range(3):
+                stiff[m] = level * K[m, j] - rate**2 * S[m, j] + gravity * H[m, j] + way * G[m, j]
+                push -= h * stiff[m] * y[j + m]
+                stiff[m] = (1.0 + h * c) * mass[m, j] + 2.0 * h * rate * G[m, j] + h * h * stiff[m]
+            pivot = stiff[1] - stiff[0] * slope[j]
+            slope[j + 1], u[j + 1] = stiff[2] / pivot, (push - stiff[0] * u[j]) / pivot
+        for j in range(k - 1, 0, -1):
+            u[j] -= slope[j] * u[j + 1]
+        for j in range(k):
+            found[i + 1, j + 1] = y[j + 1] + dt * u[j + 1]
+            p[j] = 2.0 * (mass[0, j] * u[j] + mass[1, j] * u[j + 1] + mass[2, j] * u[j + 2]) - p[j]

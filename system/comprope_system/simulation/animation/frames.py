@@ -1,0 +1,88 @@
+"""What is kept of a rope at an instant, so that its motion can be drawn: both sides, the arc round the sheave, the sheave."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from comprope.rope.parameters import Base
+from comprope.rope.simulator.rope import CompensationRope
+
+from ...prescribed_trip import Floats, side_shape
+
+SIDES = ("car", "counterweight")
+POINTS = 80  # along each side, from its end down to the axle's height
+DOWN = (
+    1.0 - (1.0 - np.linspace(0.0, 1.0, POINTS)) ** 1.5
+)  # how far down each is: closer together where the rope bends onto the sheave
+ARC = 48  # along the rope round the sheave
+REACH = 1.6  # radii above the axle up to which that rope is kept
+RATE = 20.0  # frames a second: a rope's lower modes in a shaft are slower than 2 Hz
+MOST = 1200  # frames; a longer trip has fewer of them a second
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One instant: heights of the two ends [m], outward displacement of both sides (2, POINTS) [m], upper end first;
+    the rope round the sheave (2, ARC): to the counterweight's side and above the built axle [m]; axle's rise [m]; angle [rad].
+    """
+
+    ends: Floats
+    sides: Floats
+    arc: Floats
+    axle: float
+    angle: float
+
+
+def look(rope: CompensationRope) -> Frame:
+    """The frame of a rope as it stands. Points of a side that folds back below a height are NaN."""
+    n, q, pit = rope.n, rope.state.q, rope.model.shaft.pit
+    ends = np.array([-q[0], -q[n - 1]])
+    return Frame(ends, _sides(rope), _arc(rope, pit), pit - float(q[n]), float(q[2 * n + 1]))
+
+
+def at_rest(model: Base, frames: Iterable[Frame]) -> list[Floats]:
+    """The sides (2, POINTS) [m] of the same rope at rest, with its ends at the heights they have in each frame."""
+    rope, found = CompensationRope(model), []
+    for frame in frames:
+        rope.settle(*frame.ends)
+        found.append(_sides(rope))
+    return found
+
+
+def _sides(rope: CompensationRope) -> Floats:
+    n, q = rope.n, rope.state.q
+    heights = [-end + DOWN * (end - q[n]) for end in (q[0], q[n - 1])]
+    return np.array([side_shape(rope, side, at) for side, at in zip(SIDES, heights, strict=True)])
+
+
+def _arc(rope: CompensationRope, pit: float) -> Floats:
+    """The lowest stretch of the rope, evenly spread over its nodes."""
+    n, q = rope.n, rope.state.q
+    low = np.flatnonzero(q[:n] > q[n] - REACH * rope.model.sheave.radius)
+    at, nodes = np.linspace(low[0], low[-1], ARC), np.arange(n)
+    return np.array([np.interp(at, nodes, q[n + 1 : -1]), pit - np.interp(at, nodes, q[:n])])
+
+
+class Camera:
+    """Takes a frame every few communication steps of `step` [s]; called after each, from the start on.
+
+    `rope` gives the rope that moves: it may be made anew before the first step.
+    """
+
+    def __init__(self, rope: Callable[[], CompensationRope], step: float) -> None:
+        self._rope, self._step = rope, step
+        self._stride = 1
+        self.frames: list[Frame] = []
+
+    @property
+    def interval(self) -> float:
+        """Time between frames [s]."""
+        return self._stride * self._step
+
+    def __call__(self, count: int, total: int) -> None:
+        """After `count` of `total` steps."""
+        if count == 0:
+            self._stride = max(1, round(1.0 / (RATE * self._step)), -(-total // MOST))
+        if count % self._stride == 0:
+            self.frames.append(look(self._rope()))

@@ -1,0 +1,40 @@
+"""The curves beside an animation: what the sensors saw, and what car and sheave did."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..measured_run import Run
+from ..plot import alongside
+from ..trip_simulation import Simulated
+from .encoding import Trace
+
+SAMPLES = 2400  # of a curve at most; a page shows about 500 across
+OTHERS = (  # column, name, factor, unit
+    ("car_velocity", "speed of the car", 1.0, "m/s"),
+    ("sheave_displacement", "height of the sheave", 1e3, "mm"),
+    ("sheave_force", "force on the sheave", 1.0, "N"),
+    ("car_end_tension", "pull on the car", 1.0, "N"),
+)
+
+
+def traces(simulated: Simulated, measured: Run | None = None) -> list[Trace]:
+    """First the sensors' [mm], with what was measured there, then car and sheave."""
+    table = simulated.table.iloc[:: _stride(len(simulated.table))]
+    time = table["time"]
+    seen = [
+        Trace(name, "mm", time, 1e3 * table[name], k, _measured(simulated, name, measured))
+        for k, name in enumerate(simulated.sensors)
+    ]
+    return [*seen, *(Trace(name, unit, time, factor * table[column]) for column, name, factor, unit in OTHERS)]
+
+
+def _measured(simulated: Simulated, name: str, measured: Run | None) -> tuple[ArrayLike, ArrayLike] | None:
+    if not measured or name not in measured.channels:
+        return None
+    time, value = (np.asarray(one) for one in alongside(measured.channels[name], measured, simulated, name))
+    stride = _stride(len(time))
+    return time[::stride], value[::stride]
+
+
+def _stride(length: int) -> int:
+    return -(-length // SAMPLES)

@@ -1,0 +1,89 @@
+"""Drive and rope put together: who steps first, what goes where, and the parameters of both from one model."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from comprope.drive.cosimulation import interface as drive_interface
+from comprope.drive.parameters import Drive
+from comprope.errors import InputError
+from comprope.fmi.model_interface import ModelInterface
+from comprope.rope.effects import RopeModel
+from comprope.rope.model_file import read_toml
+from comprope.rope.simulator.cosimulation import interface as rope_interface
+from comprope.validation_messages import problems
+
+from ..cosim import Connection, Participant, fmu_cache
+from ..cosim.fmu_participant import FmuParticipant
+from ..cosim.in_process_participant import DirectParticipant
+from ..cosim.prescribed_motion import PrescribedMotion
+from ..measurements import Trip
+
+MOTIONS = tuple(f"{end}_{what}" for end in ("car", "counterweight") for what in ("position", "velocity", "acceleration"))
+TENSIONS = ("car_end_tension", "counterweight_end_tension")
+FORWARD = tuple(Connection("motion", one, "rope", one) for one in MOTIONS)
+BACKWARD = tuple(Connection("rope", one, "motion", one) for one in TENSIONS)
+# The rope's inputs are the drive's outputs of the same step, velocities and accelerations included.
+ROPE_INPUTS = {"inputs_at_end": True, "derivative_inputs": True}
+
+
+@dataclass(frozen=True)
+class Lift:
+    """The participants in their order of stepping, and their connections; `driven`: by a drive, not as measured."""
+
+    participants: tuple[Participant, ...]
+    connections: tuple[Connection, ...]
+    driven: bool
+
+
+def load_drive(path: str | Path | None, changes: Mapping[str, Mapping[str, Any]] | None = None) -> Drive:
+    """The drive of a parameter file (tables as `[profile]`), with `changes` by table and key on top of it.
+
+    Raises `InputError` naming all problems, as for model files.
+    """
+    table, asked = read_toml(path) if path else {}, dict(changes or {})
+    _validated(table, str(path))
+    return _validated({key: {**table.get(key, {}), **asked.get(key, {})} for key in {*table, *asked}}, "drive")
+
+
+def _validated(table: Mapping[str, Any], source: str) -> Drive:
+    try:
+        return Drive.model_validate(table)
+    except ValidationError as error:
+        raise InputError("\n".join(f"{source}: {line}" for line in problems(error, Drive))) from None
+
+
+@contextmanager
+def driven(model: RopeModel, drive: Drive, direct: bool = False) -> Iterator[Lift]:
+    """Drive and rope, as FMUs or, with `direct`, as models in this process; freed at the end."""
+    with ExitStack() as stack:
+        interface = drive_interface(drive)
+        if direct:
+            motion: Participant = DirectParticipant("motion", interface, {})
+        else:
+            motion = stack.enter_context(FmuParticipant("motion", fmu_cache.drive_fmu(), start_values(interface)))
+        yield Lift((motion, _rope(stack, model, direct)), FORWARD + BACKWARD, True)
+
+
+@contextmanager
+def prescribed(model: RopeModel, trips: Mapping[str, Trip], direct: bool = False) -> Iterator[Lift]:
+    """The rope under a car and counterweight that move as measured; see `PrescribedMotion`."""
+    with ExitStack() as stack:
+        yield Lift((PrescribedMotion("motion", trips), _rope(stack, model, direct)), FORWARD, False)
+
+
+def start_values(interface: ModelInterface) -> dict[str, Any]:
+    """Every parameter and input of a model by name: an FMU's own start values need not be the same."""
+    return {one.name: one.start for role in ("parameter", "input") for one in interface.of_role(role)}
+
+
+def _rope(stack: ExitStack, model: RopeModel, direct: bool) -> Participant:
+    interface = rope_interface(model)
+    if direct:
+        return DirectParticipant("rope", interface, ROPE_INPUTS)
+    path = fmu_cache.rope_fmu(len(model.sensors), model.own_effects)
+    return stack.enter_context(FmuParticipant("rope", path, start_values(interface) | ROPE_INPUTS))

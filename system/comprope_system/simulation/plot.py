@@ -1,0 +1,93 @@
+"""The picture of one trip: how the car moves, how the rope swings, what the sheave does."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from comprope.atomic_files import whole_file
+
+from .measured_run import Channel, Run
+from .trip_simulation import Simulated
+
+SIMULATED, MEASURED, SECOND = "#0b4f8a", "#e8893b", "#7a8794"
+
+
+def save_trip(path: Path, simulated: Simulated, measured: Run | None = None) -> None:
+    """Draw a trip into a file, whole or not at all; its suffix tells the format."""
+    figure = draw_trip(simulated, measured)
+    with whole_file(path) as temporary:
+        figure.savefig(temporary, dpi=150)
+
+
+def draw_trip(simulated: Simulated, measured: Run | None = None) -> Figure:
+    """The picture: car and sheave on the left, lateral displacement at each sensor on the right."""
+    rows = max(4, len(simulated.sensors))
+    figure = Figure(figsize=(13.0, 2.1 * rows + 0.6), layout="constrained")
+    grid = figure.add_gridspec(rows, 2)
+    left = [figure.add_subplot(grid[row, 0]) for row in range(4)]
+    right = [figure.add_subplot(grid[row, 1]) for row in range(len(simulated.sensors))]
+    _draw_car(left[0], left[1], simulated)
+    _draw_sheave(left[2], left[3], simulated)
+    for axes, name in zip(right, simulated.sensors, strict=True):
+        _draw_sensor(axes, simulated, name, measured)
+    for axes in (*left, *right):
+        _dress(axes, float(simulated.table["time"].iloc[-1]))
+    for column in (left, right):
+        if column:
+            column[-1].set_xlabel("time [s]")
+    return figure
+
+
+def _draw_car(height: Axes, acceleration: Axes, simulated: Simulated) -> None:
+    table = simulated.table
+    _curve(height, table["time"], table["car_position"], "height of the car [m]")
+    _curve(acceleration, table["time"], table["car_acceleration"], "acceleration [m/s²]")
+    height.set_title("Car and sheave", loc="left", fontweight="bold")
+
+
+def _draw_sheave(force: Axes, motion: Axes, simulated: Simulated) -> None:
+    table = simulated.table
+    _curve(force, table["time"], table["sheave_force"], "force on sheave [N]")
+    _curve(motion, table["time"], 1e3 * table["sheave_displacement"], "height of sheave [mm]")
+    turning = motion.twinx()
+    turning.plot(table["time"], table["sheave_angular_velocity"], color=SECOND, linewidth=0.9)
+    turning.set_ylabel("turning [rad/s]", color=SECOND)
+    turning.spines["top"].set_visible(False)
+
+
+def _draw_sensor(axes: Axes, simulated: Simulated, name: str, measured: Run | None) -> None:
+    table = simulated.table
+    if measured and name in measured.channels:
+        time, value = alongside(measured.channels[name], measured, simulated, name)
+        axes.plot(time, value, color=MEASURED, linewidth=0.8, label="measured")
+    _curve(axes, table["time"], 1e3 * table[name], f"{name} [mm]")
+    if axes is axes.figure.axes[4]:
+        axes.set_title("Lateral displacement of the rope, outward", loc="left", fontweight="bold")
+        if measured:
+            axes.legend(loc="best", frameon=False, ncols=2)
+
+
+def alongside(channel: Channel, measured: Run, simulated: Simulated, name: str) -> tuple[ArrayLike, ArrayLike]:
+    """The measured channel [mm] with, where it counts from rest, its rest put on the simulated one."""
+    shift = 0.0
+    if channel.from_rest:
+        still = channel.time <= measured.trips["car"].rest_before
+        shift = float(simulated.table[name].iloc[0]) - float(np.nanmean(channel.value[still]))
+    shown = channel.time <= simulated.table["time"].iloc[-1]
+    return channel.time[shown], 1e3 * (channel.value[shown] + shift)
+
+
+def _curve(axes: Axes, time: ArrayLike, value: ArrayLike, label: str) -> None:
+    axes.plot(time, value, color=SIMULATED, linewidth=1.2, label="simulated")
+    axes.set_ylabel(label)
+
+
+def _dress(axes: Axes, end: float) -> None:
+    axes.set_xlim(0.0, end)
+    axes.grid(color="#e3e6ea", linewidth=0.7)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.margins(y=0.08)

@@ -1,0 +1,104 @@
+"""One trip from start to end: run the lift, record its columns, sum it up."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from comprope.atomic_files import whole_file
+from comprope.errors import InputError
+
+from ..cosim import Sample, co_simulate
+from ..cosim.master import Coupling
+from .elevator import Lift
+from .result_columns import Column, columns, lateral_output, view_output
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A simulated trip: `table` with a column `time` [s] and one for each of `columns`; `sensors` are names of some."""
+
+    table: pd.DataFrame
+    columns: tuple[Column, ...]
+    sensors: tuple[str, ...]
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write the table, whole or not at all; missing values are empty cells."""
+        with whole_file(path) as temporary:
+            self.table.to_csv(temporary, index=False, float_format="%.9g", lineterminator="\n")
+
+
+@dataclass(frozen=True)
+class Timing:
+    """How long to simulate, the communication step [s], and whether the drive feels the rope."""
+
+    duration: float
+    step: float = 0.01
+    coupling: Coupling = "two-way"
+
+    def __post_init__(self) -> None:
+        """Raises `InputError` for impossible times."""
+        if not 0.0 < self.duration < inf:
+            raise InputError(f"duration = {self.duration:g} s: a number above 0 is accepted")
+        if not 0.0 < self.step <= self.duration:
+            raise InputError(f"communication step = {self.step:g} s: above 0 to the duration, {self.duration:g} s, is accepted")
+
+
+def simulate(lift: Lift, sensors: Sequence[str], timing: Timing, progress: Progress | None = None) -> Simulated:
+    """Run the lift from time 0 and record every communication step.
+
+    `sensors` are the names of the model's sensors in their order; `progress(count, total)` is called after each step.
+    """
+    chosen = columns(sensors, lift.driven)
+    rows = []
+    for sample in co_simulate(lift.participants, lift.connections, timing.duration, timing.step, coupling=timing.coupling):
+        rows.append(_row(sample, chosen, sensors))
+        if progress:
+            progress(sample.count, sample.total)
+    table = pd.DataFrame(rows, columns=["time", *(one.name for one in chosen)])
+    return Simulated(table, tuple(chosen), tuple(sensors))
+
+
+def _row(sample: Sample, chosen: Sequence[Column], sensors: Sequence[str]) -> list[Any]:
+    hidden = {lateral_output(k) for k in range(len(sensors)) if not sample.outputs["rope"][view_output(k)]}
+    values = (np.nan if one.output in hidden else sample.outputs[one.source][one.output] for one in chosen)
+    return [round(sample.time, 9), *values]
+
+
+def summary(simulated: Simulated) -> list[tuple[str, str]]:
+    """What happened, as pairs of a name and a text."""
+    table = simulated.table
+    force = table["sheave_force"]
+    end = table.iloc[-1]
+    return [
+        ("duration", f"{end['time']:.2f} s"),
+        ("car", f"{_height(table['car_position'].iloc[0])} to {_height(end['car_position'])}"),
+        *((f"peak at {name}", _peak(table, name)) for name in simulated.sensors),
+        ("sheave force", f"{force.min():.1f} N to {force.max():.1f} N"),
+        ("sheave displacement", f"{_range(table['sheave_displacement'])} mm"),
+        ("energy residual", f"{table['energy_residual'].abs().max():.2g} J at most"),
+        ("Newton iterations", f"{end['newton_iterations']:.0f}, {end['halvings']:.0f} steps halved"),
+    ]
+
+
+def _height(value: float) -> str:
+    return f"{round(value, 2) + 0.0:.2f} m"
+
+
+def _peak(table: pd.DataFrame, name: str) -> str:
+    """The largest departure from the value at the start, with its time."""
+    change = table[name] - table[name].iloc[0]
+    if not change.notna().any():
+        return "the rope was never there at the start" if table[name].notna().any() else "the rope was never there"
+    at = change.abs().idxmax()
+    return f"{1e3 * change[at]:+.2f} mm from rest, at {table['time'][at]:.2f} s"
+
+
+def _range(values: pd.Series) -> str:
+    return f"{1e3 * values.min():.3f} to {1e3 * values.max():.3f}"

@@ -1,0 +1,67 @@
+"""What `comprope study` does: run the studies asked for, draw their figures, write one page."""
+
+import importlib
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from comprope.atomic_files import require_writable
+from comprope.errors import InputError
+from comprope.validation_messages import suggestion
+
+from ..parallel.executors import workers
+from ..parallel.sweep import sweep, values
+from ..report.finding import Fact, Finding, fact_table
+from ..report.page import Section, save_page, save_pictures
+from .study import Ask, Study
+
+NAMES = ("fig4", "fig5", "fig6", "fig7", "period", "fig8", "design")  # as the paper has them
+PAGE, STORE = "studies.html", "results.jsonl"
+TITLE = "Compensation rope: stated and obtained"
+LEAD = (
+    "Every result of Nakazawa, Watanabe, Fukui and Okawa, “Lateral vibration analysis for elevator compensation rope”, "
+    "computed anew. The figures are known by what the text states of them; rope, radius and pit, which it does not state, "
+    "are typical values."
+)
+
+
+@dataclass(frozen=True)
+class Request:
+    """Studies by name (all if none), folder for the results, processes, a cluster's address, and the design study's question."""
+
+    names: Sequence[str]
+    out: Path
+    jobs: int | None = None
+    executor: str | None = None
+    ask: Ask = Ask()  # noqa: RUF009 -- frozen
+
+
+def run(request: Request) -> dict[str, Finding]:
+    """Run the studies and write figures and page; results of an interrupted run of the same folder are taken over."""
+    studies = [find(name) for name in request.names or NAMES]
+    require_writable(request.out / PAGE)
+    findings = {}
+    with workers(request.jobs, request.executor) as executor:
+        for study in studies:
+            outcomes = sweep(study.task, study.cases(request.ask), executor, request.out / STORE, study.name)
+            findings[study.name] = study.tell(request.ask, values(outcomes))
+    sections = [study.section(findings[study.name]) for study in studies]
+    facts = [fact for finding in findings.values() for fact in finding.facts]
+    save_pictures(request.out, sections)
+    save_page(request.out / PAGE, TITLE, LEAD, [Section("summary", "Summary", [fact_table(facts)]), *sections])
+    _print(facts, request.out / PAGE)
+    return findings
+
+
+def find(name: str) -> Study:
+    """The study of a name; raises `InputError` for another name."""
+    if name not in NAMES:
+        raise InputError(f"{name}: not a study; {suggestion(name, list(NAMES))}")
+    study: Study = importlib.import_module(f"{__package__}.{name}").STUDY
+    return study
+
+
+def _print(facts: Sequence[Fact], page: Path) -> None:
+    sys.stdout.write("".join(f"{one.verdict:<6}  {one.what}: stated {one.stated}; obtained {one.obtained}\n" for one in facts))
+    sys.stdout.write(f"written {page}\n")

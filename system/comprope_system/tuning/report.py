@@ -1,0 +1,197 @@
+"""The page of `comprope tune`: fronts, the chosen controllers, what time a quiet rope costs, and how surely."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..report.page import Block, Picture, Section, Table
+from .figures import draw_fronts, draw_installed, draw_servo
+
+TITLE = "Controller tuned against the rope"
+LEAD = (
+    "Swing is the departure of either side of the rope from its shape at rest with the car where it is: the farthest during the "
+    "trip, and half the range after it. Candidates are found on a small linear rope and judged on the "
+    "full model with drive and servo."
+)
+Result = Mapping[str, Any]
+
+
+def sections(result: Result) -> list[Section]:
+    """The page's sections."""
+    return [
+        Section("trips", "Trips: before and after", _trips(result)),
+        Section("fronts", "Travel time against swing", _fronts(result)),
+        Section("quiet", "What a quieter rope costs", _quiet(result)),
+        Section("robust", "Another sheave", _robust(result)),
+        Section("servo", "Servo gains and margins", _servo(result)),
+        Section("controller", "One controller for all trips", _controller(result)),
+        Section("search", "How well the search knows the rope", _search(result)),
+    ]
+
+
+def summary(result: Result) -> list[str]:
+    """One line for each trip."""
+    lines = []
+    for trip in result["trips"]:
+        shown = trip["installed"]
+        if not shown:
+            lines.append(f"{_name(trip)}: no travel time asked for meets the limit")
+            continue
+        swings = ", ".join(f"{name} {_pair(shown[key]['swing'])}" for name, key in NAMES)
+        lines.append(f"{_name(trip)}: during/after [mm] {swings}; {shown['factor']:g} times the present travel time")
+    return lines
+
+
+NAMES = (("present", "present"), ("best S-curve", "s_curve"), ("tuned", "tuned"))
+
+
+def _name(trip: Mapping[str, Any]) -> str:
+    return f"{trip['origin']:g} to {trip['destination']:g} m"
+
+
+def _mm(value: float | None) -> str:
+    return "" if value is None else f"{1e3 * value:.2f}"
+
+
+def _pair(values: Sequence[float]) -> str:
+    return f"{_mm(values[0])}/{_mm(values[1])}"
+
+
+def _point(trip: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    shown = trip["installed"]
+    return next((one for one in trip["points"] if one["factor"] == shown["factor"]), None) if shown else None
+
+
+def _trips(result: Result) -> list[Block]:
+    rows, blocks = [], list[Block]()
+    for trip in result["trips"]:
+        shown, point = trip["installed"], _point(trip)
+        if not shown or not point:
+            continue
+        less = all(a < b for a, b in zip(shown["tuned"]["swing"], shown["s_curve"]["swing"], strict=True))
+        swings = [_mm(one) for key in ("present", "s_curve", "tuned") for one in shown[key]["swing"]]
+        times = f"{trip['present']['time']:.2f}", f"{point['tuned']['time']:.2f}"
+        rows.append((_name(trip), *times, *swings, point["tuned"]["kind"], "yes" if less else "no"))
+        blocks.append(Picture(f"trip_{trip['origin']:g}_{trip['destination']:g}", draw_installed(trip), _name(trip)))
+    head = (
+        "trip", "present [s]", "tuned [s]", "present: during [mm]", "after", "best S-curve: during", "after", "tuned: during",
+        "after", "kind", "less in both",
+    )  # fmt: skip
+    text = (
+        "Run by the FMUs of drive and rope. The best S-curve is the jerk-limited trip of the same travel time, within the same "
+        "limits and with the same servo, that swings least."
+    )
+    return [text, Table(head, rows), *blocks]
+
+
+def _fronts(result: Result) -> list[Block]:
+    rows = []
+    for trip in result["trips"]:
+        for point in trip["points"]:
+            swings = [_mm(one) for key in ("s_curve", "tuned") for one in point[key]["full"]]
+            rows.append((_name(trip), f"{point['factor']:g}", f"{point['time']:.2f}", *swings, point["tuned"]["kind"]))
+    head = ("trip", "of the present time", "time [s]", "S-curve: during [mm]", "after", "tuned: during", "after", "kind")
+    return [Picture("fronts", draw_fronts(result["trips"])), Table(head, rows)]
+
+
+def _quiet(result: Result) -> list[Block]:
+    rows, short = [], []
+    for trip in result["trips"]:
+        present = trip["present"]["time"]
+        cells = []
+        for saved, least in zip(trip["saved"], trip["bound"]["times"], strict=True):
+            left = saved["full"][1] / trip["present"]["full"][1] if saved["full"] else None
+            cells += [
+                f"+{saved['time'] - present:.2f}" if saved["time"] else "none found",
+                f"{100.0 * (1.0 - left):.0f}" if left is not None else "",
+                f"+{max(least - present, 0.0):.2f}" if least else "none",
+            ]  # fmt: skip
+        rows.append((_name(trip), f"{present:.2f}", f"{trip['period']:.2f}", *cells))
+        if trip["bound"]["too_short"] > 0.0:
+            short.append(f"{_name(trip)} ({100.0 * trip['bound']['too_short']:.0f} % of a blow's swing)")
+    head = (
+        "trip", "present [s]", "slowest period [s]", "half: extra [s]", "less, full model [%]", "bound [s]", "a fifth: extra [s]",
+        "less, full model [%]", "bound [s]",
+    )  # fmt: skip
+    text = (
+        "Extra travel time for half and for a fifth of the present swing after the trip. The bound is the "
+        "extra time of the fastest "
+        "acceleration profile whatsoever within the limits whose spectrum at the slowest period, held fixed, "
+        "is so small; the rope's "
+        "period changes on the way and its other swings count too, so that the rope can need more or less."
+    )
+    told = f"Shorter than half a period, so that no profile hides the trip from the rope: {', '.join(short)}." if short else (
+        "Every trip lasts longer than half a period: none is too short to hide."
+    )  # fmt: skip
+    return [text, Table(head, rows), told]
+
+
+def _robust(result: Result) -> list[Block]:
+    rows = []
+    for trip in result["trips"]:
+        if not trip["robust"]:
+            continue
+        cells = [_mm(one) for row in trip["robust"] for key in ("s_curve", "tuned") for one in row[key]]
+        rows.append((_name(trip), *cells))
+    head = ["trip"]
+    for mass in ("−10 %", "+10 %"):
+        head += [f"{mass}: S-curve, during [mm]", "after", "tuned: during", "after"]
+    return ["The same drives with the sheave a tenth lighter and heavier, on the full model.", Table(head, rows)]
+
+
+def _servo(result: Result) -> list[Block]:
+    rows = []
+    for name, key in (("present", "present"), ("chosen", "chosen")):
+        one = result["servo"][key]
+        rows.append((
+            name, f"{one['position_bandwidth']:.3g}", f"{one['speed_bandwidth']:.3g}", f"{one['speed_damping']:.3g}",
+            f"{one['gain']:.2f}", f"{one['phase']:.1f}", f"{1e3 * one['delay']:.0f}", f"{one['bounce']:.3f}",
+        ))  # fmt: skip
+    head = (
+        "servo", "position [rad/s]", "speed [rad/s]", "damping", "gain margin", "phase margin [°]", "delay margin [ms]",
+        "damping of the slower bounce",
+    )  # fmt: skip
+    text = (
+        "Car and counterweight bounce on their hoist ropes, and the bounce swings the rope where a side has "
+        "a period near it. The "
+        "gains chosen damp it most, in the mean over the car's positions, among those that keep a gain "
+        "margin of 2, a phase margin "
+        "of 45° and a delay margin of 20 ms at bottom, middle and top."
+    )
+    return [text, Table(head, rows), Picture("servo", draw_servo(result["servo"]))]
+
+
+def _controller(result: Result) -> list[Block]:
+    found = result["controller"]
+    if not found:
+        return ["No kind of trip is so fast as asked for."]
+    rows = []
+    for trip, time, full in zip(result["trips"], found["times"], found["full"], strict=True):
+        rows.append((_name(trip), f"{trip['present']['time']:.2f}", f"{time:.2f}", _pair(trip["present"]["full"]), _pair(full)))
+    head = ("trip", "present [s]", "tuned [s]", "present: during/after [mm]", "tuned: during/after [mm]")
+    text = (
+        f"controller.drive.toml: {found['kind']}, with {100.0 * result['extra']:.0f} % more travel time over all trips together."
+    )
+    return [text, Table(head, rows)]
+
+
+def errors(trips: Sequence[Mapping[str, Any]]) -> list[float]:
+    """How much more the full model swings than the small rope, during and after, over the small rope's."""
+    told = [trip["present"] for trip in trips]
+    told += [point[key] for trip in trips for point in trip["points"] for key in ("s_curve", "tuned")]
+    return [full / small - 1.0 for one in told for small, full in zip(one["small"], one["full"], strict=True) if small > 0.0]
+
+
+def _search(result: Result) -> list[Block]:
+    found = sorted(errors(result["trips"]))
+    middle = found[len(found) // 2]
+    rows = []
+    for trip in result["trips"]:
+        one = trip["present"]
+        rows.append((_name(trip), _pair(one["small"]), _pair(one["full"])))
+    text = (
+        f"Full model against small rope over all {len(found)} swings judged: {100 * middle:+.0f} % in the middle, from "
+        f"{100 * found[0]:+.0f} to {100 * found[-1]:+.0f} %. rope_models.json holds the rope as state-space "
+        "models of python-control "
+        "at seven heights of the car."
+    )
+    return [text, Table(("present trip", "small rope: during/after [mm]", "full model"), rows)]

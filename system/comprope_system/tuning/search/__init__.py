@@ -1,0 +1,1 @@
+"""Search for trip profiles and servo gains on the reduced model."""

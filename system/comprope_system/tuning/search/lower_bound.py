@@ -1,0 +1,63 @@
+"""What no trip can do better: the least that any acceleration profile within the limits leaves at a fixed period.
+
+A swing of angular frequency w is left in proportion to the spectrum of the acceleration there, w |V(w)| with V that of the
+speed. Of all profiles of a duration one that is its own mirror image leaves least (the mean of any and its mirror image leaves
+no more), so that the least is a linear program. For a car that never goes back, a trip shorter than half a period leaves
+cos(pi T / period) of what a blow would, whatever its limits: it is too short to hide.
+"""
+
+from math import pi
+
+import numpy as np
+from scipy.optimize import linprog
+
+from comprope.drive.parameters import Drive
+from comprope.drive.reference_trajectory import Course
+
+from ...reduced_model.sampled_motion import moves
+from .profile_families import Way
+
+PARTS = 40  # of half the travel time
+LONGEST = 6.0  # of the shortest time: beyond that nothing is looked for
+
+
+def spectrum(course: Course, period: float) -> float:
+    """|V(w)| over the distance of a course, 1 for a blow, at the angular frequency of `period` [s]."""
+    moved = moves(course, course.end_time, 0.005)
+    distance = abs(course.destination - course.origin)
+    return float(abs(np.sum(moved.speed * np.exp(-2j * pi * moved.time / period)) * moved.dt) / distance)
+
+
+def least_spectrum(drive: Drive, way: Way, time: float, period: float) -> float:
+    """The least |V(w)| over the distance of any trip of `time` [s] within the drive's limits; infinite where none is so fast."""
+    own, dt, distance = drive.profile, 0.5 * time / PARTS, way.distance
+    t = dt * np.arange(PARTS + 1) - 0.5 * time  # the first half: its speeds are those of the second, mirrored
+    weight = dt * np.ones(PARTS + 1)
+    weight[[0, -1]] *= 0.5
+    first = np.diff(np.eye(PARTS + 1), axis=0) / dt
+    second = np.diff(np.vstack([np.zeros(PARTS), np.eye(PARTS), np.zeros(PARTS)]), axis=0) @ first / dt
+    rows = np.vstack([first, -first, second, -second])
+    most = np.concatenate([np.full(2 * PARTS, own.acceleration), np.full(2 * len(second), own.jerk * (1.0 + 1.0 / PARTS))])
+    spectral = 2.0 * weight * np.cos(2.0 * pi * t / period) / distance
+    rows = np.vstack([np.hstack([rows, np.zeros((len(rows), 1))]), [*spectral, -1.0], [*-spectral, -1.0]])
+    bounds = [(0.0, 0.0)] + [(0.0, own.speed)] * PARTS + [(0.0, None)]
+    cost, equal = np.append(np.zeros(PARTS + 1), 1.0), np.append(2.0 * weight, 0.0)[None, :]
+    found = linprog(cost, rows, np.concatenate([most, [0.0, 0.0]]), equal, [distance], bounds, method="highs")
+    return float(found.fun) if found.status == 0 else np.inf
+
+
+def least_time(drive: Drive, way: Way, course: Course, period: float, share: float) -> float:
+    """The shortest time [s] of any trip that leaves at most `share` of what `course` leaves; infinite if none is found."""
+    allowed = share * spectrum(course, period)
+    low, high = course.duration * 0.98, course.duration * LONGEST
+    if least_spectrum(drive, way, high, period) > allowed:
+        return np.inf
+    while high - low > 0.005 * course.duration:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if least_spectrum(drive, way, middle, period) <= allowed else (middle, high)
+    return high
+
+
+def too_short(time: float, period: float) -> float:
+    """The share of a blow's swing that a trip of `time` [s] leaves at least, limits or none; 0 from half a period on."""
+    return max(0.0, float(np.cos(pi * time / period))) if time < 0.5 * period else 0.0

@@ -1,0 +1,89 @@
+"""Kinds of trips to search among, each a few shares between 0 and 1, and the drive that a choice of them makes.
+
+The shares are those of the limits of speed and jerk, of a moving average, of the shaper's period; the acceleration follows
+from the travel time asked for.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from comprope.drive.parameters import SHORTEST, Drive, Profile, Shaper
+from comprope.drive.reference_trajectory import Course, course
+from comprope.drive.s_curve import plan
+
+START = 0.1  # s at rest before a trip in the search
+LEAST = 0.05  # of the largest acceleration: slower trips are not looked for
+SHARES = {"speed": (0.1, 1.0), "jerk": (0.06, 1.0), "smoothing": (0.0, 0.5), "period": (0.05, 1.4)}
+EI = 0.05  # tolerance of the EI shaper
+KINDS: Mapping[str, tuple[int, float, bool]] = {  # impulses, tolerance, smoothing
+    "S-curve": (1, 0.0, False), "smooth": (1, 0.0, True), "ZV": (2, 0.0, True), "ZVD": (3, 0.0, True), "EI": (3, EI, True),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Way:
+    """A trip between two heights [m], and the rope's periods [s] with the car about a terminal landing and half-way up."""
+
+    origin: float
+    destination: float
+    periods: tuple[float, float]
+
+    @property
+    def distance(self) -> float:
+        """How far [m]."""
+        return abs(self.destination - self.origin)
+
+
+def names(kind: str) -> tuple[str, ...]:
+    """The shares that a kind of trip is chosen by."""
+    impulses, _, smooth = KINDS[kind]
+    return ("speed", "jerk", *(["smoothing"] if smooth else []), *(["period"] if impulses > 1 else []))
+
+
+def drive_for(drive: Drive, kind: str, shares: Mapping[str, float], periods: tuple[float, float], acceleration: float) -> Drive:
+    """The drive with profile and shaper of a kind; `shares` of the drive's own limits, the average's in s / 10 of a period."""
+    impulses, tolerance, _ = KINDS[kind]
+    own, factor = drive.profile, shares.get("period", 1.0)
+    smoothing = shares.get("smoothing", 0.0) * periods[0]
+    profile = Profile(
+        speed=own.speed * shares["speed"], acceleration=acceleration, jerk=own.jerk * shares["jerk"],
+        smoothing=smoothing if smoothing >= SHORTEST else 0.0,
+    )  # fmt: skip
+    landing, middle = (max(0.1, min(60.0, factor * one)) for one in periods)
+    shaper = Shaper(
+        impulses=float(impulses), period_landing=landing, period_middle=middle, damping=drive.shaper.damping, tolerance=tolerance
+    )
+    return drive.model_copy(update={"profile": profile, "shaper": shaper})
+
+
+def course_of(drive: Drive, way: Way, start: float = START) -> Course:
+    """The course of a drive along a way."""
+    return course(drive, plan(drive.profile, way.origin, way.destination, start))
+
+
+def drive_in_time(drive: Drive, kind: str, shares: Mapping[str, float], ways: list[Way], time: float) -> Drive | None:
+    """The drive of the shares that takes `time` [s] for all ways together; None where it cannot be so fast.
+
+    The acceleration is found by bisection, within the drive's own limit.
+    """
+    most = drive.profile.acceleration
+
+    def made(acceleration: float) -> tuple[Drive, float]:
+        one = drive_for(drive, kind, shares, ways[0].periods, acceleration)
+        return one, sum(course_of(one, way).duration for way in ways)
+
+    low, high = LEAST * most, most
+    best, fastest = made(high)
+    if fastest > time * (1.0 + 1e-9):
+        return None
+    slowest, needed = made(low)
+    if needed <= time:
+        return slowest
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        one, needed = made(middle)
+        if needed <= time:
+            high, best = middle, one
+        else:
+            low = middle
+    return best

@@ -1,0 +1,76 @@
+"""Servo gains: those that damp the car's bounce most and keep the margins of the loop."""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from itertools import product
+
+import numpy as np
+
+from comprope.drive.parameters import Drive, Servo
+from comprope.drive.stability_margins import Margins, margins, unstable_positions
+
+from ...reduced_model.hoist_bounce import hoist_of
+
+LEAST_GAIN, LEAST_PHASE, LEAST_DELAY = 2.0, 45.0, 0.02  # factor, degrees, s
+POSITION = (0.5, 1.0, 1.5)  # of the present position bandwidth
+SPEED = (0.3, 0.45, 0.7, 1.0, 1.5)  # of the present speed bandwidth
+DAMPING = (0.7, 1.2)
+
+
+@dataclass(frozen=True)
+class Gains:
+    """A servo with the worst of its margins over the car's positions, and the slower bounce's mean damping ratio over these."""
+
+    servo: Servo
+    gain: float
+    phase: float
+    delay: float
+    bounce: float
+
+    @property
+    def kept(self) -> bool:
+        """Whether the margins are those asked for."""
+        return self.gain >= LEAST_GAIN and self.phase >= LEAST_PHASE and self.delay >= LEAST_DELAY
+
+    def told(self) -> dict[str, float]:
+        """As JSON holds it."""
+        own = {key: getattr(self.servo, key) for key in ("position_bandwidth", "speed_bandwidth", "speed_damping")}
+        return own | {key: value for key, value in asdict(self).items() if key != "servo"}
+
+
+def gains_of(drive: Drive) -> Gains:
+    """The margins of a drive's servo: worst factor by which the gain may rise or fall, phase [degrees], delay [s]."""
+    places = (0.0, 0.5 * drive.shaft.height, drive.shaft.height)
+    found: Sequence[Margins] = [margins(drive, place) for place in places]
+    gain = min(min(one.gain_rise, one.gain_fall) for one in found)
+    delay = min(np.radians(one.phase) / one.crossover for one in found)
+    return Gains(drive.servo, gain, min(one.phase for one in found), float(delay), float(_slow_damping(drive)))
+
+
+def best_gains(drive: Drive) -> Gains:
+    """The gains near the present ones that damp the bounces most within the margins; the present ones where none are better."""
+    present = gains_of(drive)
+    for one in sorted(_near(drive), key=_slow_damping, reverse=True):
+        if present.kept and _slow_damping(one) <= present.bounce:
+            return present
+        if not unstable_positions(one) and (made := gains_of(one)).kept:
+            return made
+    return present
+
+
+def _near(drive: Drive) -> list[Drive]:
+    """The drive with other gains, position control well below speed control."""
+    own, found = drive.servo, []
+    for position, speed, damping in product(POSITION, SPEED, DAMPING):
+        gains = {"position_bandwidth": position * own.position_bandwidth, "speed_bandwidth": speed * own.speed_bandwidth}
+        if gains["position_bandwidth"] <= 0.25 * gains["speed_bandwidth"]:
+            servo = own.model_copy(update=gains | {"speed_damping": damping})
+            found.append(drive.standing.model_copy(update={"servo": servo}))
+    return found
+
+
+def _slow_damping(drive: Drive) -> float:
+    """The mean damping ratio of the slower bounce over the car's positions."""
+    hoist = hoist_of(drive)
+    slower = np.argmin(hoist.frequency, axis=0)
+    return float(hoist.damping[slower, np.arange(len(slower))].mean())

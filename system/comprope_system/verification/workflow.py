@@ -1,0 +1,49 @@
+"""What `comprope verify` does: run the checks, draw their figures, write one page."""
+
+import importlib
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from comprope.atomic_files import require_writable
+from comprope.errors import CompropeError, InputError
+from comprope.validation_messages import suggestion
+
+from ..report.finding import Finding
+from ..report.page import Section, save_page, save_pictures
+from .check import PASS, Check, verdicts
+
+NAMES = ("reference", "offset", "periods", "convergence", "invariants")
+PAGE = "verification.html"
+TITLE = "Compensation rope: verification of the numerics"
+LEAD = (
+    "Are the rope's equations solved right? Against another program, closed forms, finer meshes and steps, and what must "
+    "hold exactly."
+)
+
+
+def run(names: Sequence[str], out: Path) -> dict[str, Finding]:
+    """Run checks by name (all if none) and write figures and page; raises `CompropeError` at the end if one has failed."""
+    checks = [find(name) for name in names or NAMES]
+    require_writable(out / PAGE)
+    findings = {}
+    for check in checks:
+        findings[check.name] = check.run()
+        for fact in findings[check.name].facts:
+            sys.stdout.write(f"{fact.verdict:<5} {fact.what}: expected {fact.stated}; obtained {fact.obtained}\n")
+    sections = [check.section(findings[check.name]) for check in checks]
+    facts = [fact for finding in findings.values() for fact in finding.facts]
+    save_pictures(out, sections)
+    save_page(out / PAGE, TITLE, LEAD, [Section("summary", "Summary", [verdicts(facts)]), *sections])
+    sys.stdout.write(f"written {out / PAGE}\n")
+    if failed := [fact.what for fact in facts if fact.verdict != PASS]:
+        raise CompropeError(f"verification: {len(failed)} of {len(facts)} checks failed: {'; '.join(failed)}")
+    return findings
+
+
+def find(name: str) -> Check:
+    """The check of a name; raises `InputError` for another name."""
+    if name not in NAMES:
+        raise InputError(f"{name}: not a check; {suggestion(name, list(NAMES))}")
+    check: Check = importlib.import_module(f"{__package__}.{name}").CHECK
+    return check
