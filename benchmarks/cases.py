@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from comprope.drive.parameters import Profile
-from comprope.drive.s_curve import Trip, plan
+from comprope.drive.trajectory.s_curve import SCurve, plan_s_curve
 from comprope.rope.model_file import RopeModel, load, with_changes
 from comprope.rope.simulator.rope import CompensationRope
 from comprope_system.presets import model_path
@@ -20,12 +20,12 @@ def model(preset: str, **changes: float) -> RopeModel:
     return with_changes(load(model_path(preset)), {key.replace("__", "."): value for key, value in changes.items()})
 
 
-def trip(preset: str, origin: float, destination: float) -> Trip:
+def trip(preset: str, origin: float, destination: float) -> SCurve:
     """The fastest trip between two heights [m] that the preset's elevator makes, half a second after the start."""
-    return plan(PROFILES[preset], origin, destination, 0.5)
+    return plan_s_curve(PROFILES[preset], origin, destination, 0.5)
 
 
-def path(model: RopeModel, trip: Trip, start: float, end: float) -> np.ndarray:
+def path(model: RopeModel, trip: SCurve, start: float, end: float) -> np.ndarray:
     """The way of the ends from one time to another [s]; the counterweight mirrors the car."""
     ways, radius = np.zeros((4, 6)), model.sheave.radius
     ways[1, [0, 3]], ways[3, [0, 3]] = -radius, radius
@@ -57,7 +57,7 @@ class Cost:
         return 1e6 * self.cpu / self.newton
 
 
-def ride(model: RopeModel, trip: Trip, until: float) -> tuple[CompensationRope, Cost]:
+def ride(model: RopeModel, trip: SCurve, until: float) -> tuple[CompensationRope, Cost]:
     """The rope at time `until` [s] of a trip, and what it cost from rest to there; settling is not in the cost."""
     rope = CompensationRope(model)
     rope.settle(trip.origin, model.shaft.height - trip.origin)

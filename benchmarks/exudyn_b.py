@@ -15,7 +15,7 @@ import numpy as np
 from cases import COMMUNICATION, path, ride
 
 from comprope.drive.parameters import Profile
-from comprope.drive.s_curve import Trip, plan
+from comprope.drive.trajectory.s_curve import SCurve, plan_s_curve
 from comprope.rope.model_file import RopeModel, validated
 from comprope.rope.simulator.rope import CompensationRope
 
@@ -36,7 +36,7 @@ def problem(step: float | None = STEP) -> RopeModel:
     return validated(table, "problem")
 
 
-def phases(trip: Trip) -> list[tuple[float, float, float, float, float]]:
+def phases(trip: SCurve) -> list[tuple[float, float, float, float, float]]:
     """The trip as phases of constant jerk: start, way, velocity, acceleration, jerk."""
     lengths, found, t = (trip.ramp, trip.plateau, trip.ramp, trip.cruise, trip.ramp, trip.plateau, trip.ramp), [], trip.start_time
     for length in lengths:
@@ -46,7 +46,7 @@ def phases(trip: Trip) -> list[tuple[float, float, float, float, float]]:
     return found
 
 
-def peer(interpreter: str, model: RopeModel, trip: Trip, until: float) -> dict[str, float]:
+def peer(interpreter: str, model: RopeModel, trip: SCurve, until: float) -> dict[str, float]:
     """The same problem in exudyn."""
     case = {
         "radius": RADIUS, "nodes": ELEMENTS + 1, "element": model.rope_length / ELEMENTS, "step": STEP, "until": until,
@@ -62,7 +62,7 @@ def peer(interpreter: str, model: RopeModel, trip: Trip, until: float) -> dict[s
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def ours(model: RopeModel, trip: Trip, until: float) -> dict[str, float]:
+def ours(model: RopeModel, trip: SCurve, until: float) -> dict[str, float]:
     """Mean tensions and the sheave's final angle of our rope, read every communication step."""
     rope, rows = CompensationRope(model), []
     rope.settle(trip.origin, model.shaft.height - trip.origin)
@@ -79,7 +79,7 @@ def main() -> None:
     parser.add_argument("--peer", required=True, help="Python interpreter that has exudyn 1.13.6")
     parser.add_argument("--until", type=float, default=3.0, help="seconds to simulate")
     options = parser.parse_args()
-    model, trip = problem(), plan(Profile(), 0.0, 50.0, 0.0)
+    model, trip = problem(), plan_s_curve(Profile(), 0.0, 50.0, 0.0)
     cost, longer = (
         min((ride(one, trip, options.until)[1] for _ in range(3)), key=lambda one: one.cpu) for one in (model, problem(None))
     )

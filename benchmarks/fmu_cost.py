@@ -12,7 +12,7 @@ from pathlib import Path
 from realtime import Ride, direct, through_fmu
 
 from comprope.drive.parameters import Profile
-from comprope.drive.s_curve import Motion, plan
+from comprope.drive.trajectory.s_curve import TrajectoryPoint, plan_s_curve
 from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import interface
@@ -22,7 +22,7 @@ DT, SECONDS, HEIGHT = 0.02, 24.0, 50.0
 INPUTS = [f"{end}_{what}" for what in ("position", "velocity", "acceleration") for end in ("car", "counterweight")]
 
 
-def ends(car: Motion) -> list[float]:
+def ends(car: TrajectoryPoint) -> list[float]:
     """Inputs of the rope while the counterweight mirrors the car."""
     return [car.position, HEIGHT - car.position, car.velocity, -car.velocity, car.acceleration, -car.acceleration]
 
@@ -34,7 +34,7 @@ def ride_of(path: str | None, model: ModelInterface) -> Ride:
 
 def cost(ride: Ride) -> float:
     """CPU seconds per simulated second."""
-    trip = plan(Profile(), 0.0, 45.0, 1.0)
+    trip = plan_s_curve(Profile(), 0.0, 45.0, 1.0)
     began = time.process_time()
     for count in range(round(SECONDS / DT)):
         ride(count * DT, ends(trip.at((count + 1) * DT)))

@@ -18,7 +18,7 @@ import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
-from comprope.fmi.instance import Run
+from comprope.fmi.instance import Instance
 from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.model_file import load
 from comprope.rope.simulator.cosimulation import interface
@@ -60,16 +60,16 @@ def through_fmu(path: str, model: ModelInterface, inputs: Sequence[str] = ENDS, 
 
 def direct(model: ModelInterface, inputs: Sequence[str] = ENDS, dt: float = STEP) -> Ride:
     """One step of the model itself, as of `through_fmu`."""
-    run, places = Run(model), {one.name: place for place, one in enumerate(model.variables)}
+    instance, places = Instance(model), {one.name: place for place, one in enumerate(model.variables)}
     given = [places[name] for name in inputs]
     outputs = [place for place, one in enumerate(model.variables) if one.role == "output" and one.kind == "real"]
-    run.write("boolean", [places[name] for name in SWITCHES], [len(inputs) > len(ENDS)] * len(SWITCHES))
-    run.begin()
+    instance.set_values("boolean", [places[name] for name in SWITCHES], [len(inputs) > len(ENDS)] * len(SWITCHES))
+    instance.exit_initialization()
 
     def step(time: float, values: Sequence[float]) -> None:
-        run.write("real", given, values)
-        run.step(time, dt)
-        run.read("real", outputs)
+        instance.set_values("real", given, values)
+        instance.do_step(time, dt)
+        instance.get_values("real", outputs)
 
     return step
 

@@ -17,7 +17,7 @@ from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
 from comprope.drive.parameters import Profile
-from comprope.drive.s_curve import Motion, plan
+from comprope.drive.trajectory.s_curve import TrajectoryPoint, plan_s_curve
 
 HEIGHT, WAIT = 50.0, 20.0  # m, s
 LANDINGS = [HEIGHT - 3.0 * k for k in range(17)] + [0.0]  # m
@@ -26,15 +26,15 @@ SHOWN = ("energy_residual", "sheave_displacement", "car_end_tension")
 PAGE = 4096 / 1e6  # MB
 
 
-def car(step: float, generator: random.Random) -> Iterator[tuple[int, Motion]]:
+def car(step: float, generator: random.Random) -> Iterator[tuple[int, TrajectoryPoint]]:
     """Number of the trip and motion of the car at the end of every communication step."""
-    count, number, trip = 0, 1, plan(Profile(), 0.0, generator.choice(LANDINGS[:-1]), 1.0)
+    count, number, trip = 0, 1, plan_s_curve(Profile(), 0.0, generator.choice(LANDINGS[:-1]), 1.0)
     while True:
         count += 1
         if count * step > trip.end_time:
             others = [one for one in LANDINGS if one != trip.destination]
             begin = count * step + generator.uniform(0.0, WAIT)
-            number, trip = number + 1, plan(Profile(), trip.destination, generator.choice(others), begin)
+            number, trip = number + 1, plan_s_curve(Profile(), trip.destination, generator.choice(others), begin)
         yield number, trip.at(count * step)
 
 

@@ -49,11 +49,11 @@ class Pair3(Pair):
 
         def expected() -> None:
             self.oracle.require(0)
-            self.oracle.run.plan(start, stop)
+            self.oracle.instance.setup_experiment(start, stop)
             self.oracle.phase = 1
 
         self.both(self.instance.enterInitializationMode, expected)
 
     def read(self) -> None:
         super().read()
-        assert self.instance.getFloat64([len(self.references)]) == [self.oracle.run.time]
+        assert self.instance.getFloat64([len(self.references)]) == [self.oracle.instance.time]

@@ -21,26 +21,26 @@ from fmpy.fmi2 import (
 )
 
 from comprope.errors import CompropeError, InputError
-from comprope.fmi.instance import Run
+from comprope.fmi.instance import Instance
 from comprope.fmi.model_interface import ModelInterface
 
 
 class Oracle:
-    """What an instance should do: a `Run` that stays out of action after an error and, if `strict`, knows the order of calls."""
+    """What an FMU should do: an `Instance` that stays out of action after an error and, if `strict`, knows the order of calls."""
 
     def __init__(self, interface: ModelInterface, strict: bool) -> None:
         self.interface, self.strict = interface, strict
         self.reset()
 
     def reset(self) -> None:
-        self.run, self.phase = Run(self.interface), 0
+        self.instance, self.phase = Instance(self.interface), 0
 
     def attempt(self, action: Callable[[], Any]) -> Any:
         """What the action gives; `CompropeError` is noted as the real thing does."""
         try:
             return action()
         except CompropeError as error:
-            self.run.failure = self.run.failure or str(error)
+            self.instance.failure = self.instance.failure or str(error)
             raise
 
     def require(self, *phases: int) -> None:
@@ -127,7 +127,7 @@ class Pair:
     def plan(self, start: float, stop: float | None) -> None:
         def expected() -> None:
             self.oracle.require(0)
-            self.oracle.run.plan(start, stop)
+            self.oracle.instance.setup_experiment(start, stop)
 
         self.both(lambda: self.instance.setupExperiment(startTime=start, stopTime=stop), expected)
 
@@ -137,7 +137,7 @@ class Pair:
     def begin(self) -> None:
         def expected() -> None:
             self.oracle.require(1)
-            self.oracle.run.begin()
+            self.oracle.instance.exit_initialization()
             self.oracle.phase = 2
 
         self.both(self.instance.exitInitializationMode, expected)
@@ -146,11 +146,11 @@ class Pair:
         self.both(self.instance.terminate, lambda: self.oracle.enter(3, 2))
 
     def step(self, dt: float, late: float = 0.0) -> None:
-        time = self.oracle.run.time + late
+        time = self.oracle.instance.time + late
 
         def expected() -> None:
             self.oracle.require(0, 1, 2)
-            self.oracle.run.step(time, dt)
+            self.oracle.instance.do_step(time, dt)
 
         self.both(lambda: self.instance.doStep(time, dt), expected)
 
@@ -160,7 +160,7 @@ class Pair:
 
         def expected() -> None:
             self.oracle.require(0, 1, 2)
-            self.oracle.run.write("real", references, values)
+            self.oracle.instance.set_values("real", references, values)
 
         self.both(lambda: self.instance.setReal(references, values), expected)
 
@@ -170,7 +170,7 @@ class Pair:
 
         def expected() -> None:
             self.oracle.require(0, 1, 2)
-            self.oracle.run.write("boolean", reference, [value])
+            self.oracle.instance.set_values("boolean", reference, [value])
 
         self.both(lambda: self.instance.setBoolean(reference, [value]), expected)
 
@@ -179,7 +179,7 @@ class Pair:
         for kind, getter in (("real", "Real"), ("integer", "Integer"), ("boolean", "Boolean")):
             chosen = [place for place, one in enumerate(self.oracle.interface.variables) if one.kind == kind]
             get = getattr(self.instance, f"get{getter}")
-            found = self.both(partial(get, chosen), partial(self.oracle.run.read, kind, chosen))
+            found = self.both(partial(get, chosen), partial(self.oracle.instance.get_values, kind, chosen))
             assert found is None or list(found[0]) == list(found[1])
             assert found is None or all(math.isfinite(value) for value in found[0])
 
@@ -187,10 +187,10 @@ class Pair:
         """Read by a reference that may not exist, as every type in turn."""
         for kind in ("real", "integer", "boolean"):
             getter = getattr(self.instance, f"get{kind.capitalize()}")
-            self.both(partial(getter, [reference]), partial(self.oracle.run.read, kind, [reference]))
+            self.both(partial(getter, [reference]), partial(self.oracle.instance.get_values, kind, [reference]))
 
     def save(self) -> None:
-        found = self.both(self.instance.getFMUState, lambda: self.oracle.run.save("one"))
+        found = self.both(self.instance.getFMUState, lambda: self.oracle.instance.save_state("one"))
         self.states.append((*found, self.oracle.phase))
 
     def restore(self, place: int, serialized: bool) -> None:
@@ -200,10 +200,10 @@ class Pair:
         state, expected, phase = self.states[place % len(self.states)]
         if serialized:
             copy = self.instance.deserializeFMUState(self.instance.serializeFMUState(state))
-            self.both(lambda: self.instance.setFMUState(copy), lambda: self.oracle.run.restore(expected, "one"))
+            self.both(lambda: self.instance.setFMUState(copy), lambda: self.oracle.instance.restore_state(expected, "one"))
             self.instance.freeFMUState(copy)
         else:
-            self.both(lambda: self.instance.setFMUState(state), lambda: self.oracle.run.restore(expected, "one"))
+            self.both(lambda: self.instance.setFMUState(state), lambda: self.oracle.instance.restore_state(expected, "one"))
         self.oracle.phase = phase
 
     def forget(self, place: int) -> None:
@@ -231,7 +231,7 @@ ODD = (math.nan, math.inf, -math.inf, -1.0, 1e9, -1e300, 0.0)
 
 def random_call(pair: Pair, random: random.Random) -> None:
     """One call of any kind; most make sense, so that runs get somewhere."""
-    if (pair.oracle.run.failure or pair.oracle.phase != 2) and random.random() < 0.3:
+    if (pair.oracle.instance.failure or pair.oracle.phase != 2) and random.random() < 0.3:
         pair.start(SMALL)
     kinds = [
         (40, lambda: _move(pair, random)),
@@ -253,7 +253,9 @@ def random_call(pair: Pair, random: random.Random) -> None:
 
 def _move(pair: Pair, random: random.Random) -> None:
     """Move the ends a little, together or apart, and step."""
-    values = pair.oracle.run.read("real", [pair.references[name] for name in ("car_position", "counterweight_position")])
+    values = pair.oracle.instance.get_values(
+        "real", [pair.references[name] for name in ("car_position", "counterweight_position")]
+    )
     moved = [float(value) + random.uniform(-0.01, 0.01) for value in values]
     pair.put(["car_position", "counterweight_position"], moved)
     pair.step(random.choice(STEPS[:6]))

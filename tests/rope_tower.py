@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from comprope.drive.s_curve import Motion, Trip
+from comprope.drive.trajectory.s_curve import SCurve, TrajectoryPoint
 from comprope.rope.model_file import RopeModel, validated, with_changes
 from comprope.rope.simulator.rope import CompensationRope
 
@@ -31,7 +31,7 @@ def rope(changes: dict[str, float] | None = None, model: RopeModel = TOWER) -> C
     return CompensationRope(with_changes(model, changes or {}))
 
 
-def way(radius: float, shaft: float, start: Motion, end: Motion) -> np.ndarray:
+def way(radius: float, shaft: float, start: TrajectoryPoint, end: TrajectoryPoint) -> np.ndarray:
     """The path of the ends for `CompensationRope.step` while the car goes from one motion to the next."""
     path = np.zeros((4, 6))
     path[1], path[3] = [-radius, 0, 0] * 2, [radius, 0, 0] * 2
@@ -41,7 +41,7 @@ def way(radius: float, shaft: float, start: Motion, end: Motion) -> np.ndarray:
     return path.ravel()
 
 
-def ride(rope: CompensationRope, trip: Trip, dt: float) -> None:
+def ride(rope: CompensationRope, trip: SCurve, dt: float) -> None:
     """Carry the rope's ends along a trip for one communication step; the counterweight mirrors the car."""
     time, model = float(rope.state.time[0]), rope.model
     rope.step(dt, way(model.sheave.radius, model.shaft.height, trip.at(time), trip.at(time + dt)))

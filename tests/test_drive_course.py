@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from comprope.drive.cosimulation import create, interface
-from comprope.drive.input_shaper import impulses, period_at
 from comprope.drive.parameters import PARTS, Curve, Drive, FirstTrip, Profile, Shaper
-from comprope.drive.reference_trajectory import Course, first_course
+from comprope.drive.trajectory.input_shaper import impulses, period_at
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory, first_trajectory
 from comprope.errors import InputError
 
 WAVE = [math.sin(2.0 * math.pi * k / PARTS) for k in range(1, PARTS)]
@@ -71,7 +71,7 @@ def test_no_limit_is_passed_whatever_shapes_a_trip(
 ) -> None:
     profile = Profile(smoothing=smoothing)
     drive = Drive(profile=profile, curve=curve, shaper=shaper(count), trip=FirstTrip(start_position=start, destination=end))
-    course = first_course(drive)
+    course = first_trajectory(drive)
     seen = [course.at(course.start_time + course.duration * k / 400) for k in range(401)]
     assert max(abs(one.velocity) for one in seen) <= profile.speed * (1.0 + 1e-9)
     assert max(abs(one.acceleration) for one in seen) <= profile.acceleration * (1.0 + 1e-9)
@@ -87,7 +87,7 @@ def test_no_limit_is_passed_whatever_shapes_a_trip(
 @pytest.mark.parametrize("smoothing", [0.0, 1.3])
 def test_velocity_and_acceleration_are_the_position_s_derivatives(curve: Curve, smoothing: float) -> None:
     drive = Drive(profile=Profile(smoothing=smoothing), curve=curve, shaper=shaper(3.0, tolerance=0.05))
-    course, h = first_course(drive), 1e-4
+    course, h = first_trajectory(drive), 1e-4
     for time in np.linspace(course.start_time + 0.1, course.end_time - 0.1, 37):
         before, now, after = (course.at(time + shift) for shift in (-h, 0.0, h))
         # Differences of 50 m over 0.2 ms keep 1e-10; the acceleration's corners lie within a step now and then.
@@ -97,7 +97,7 @@ def test_velocity_and_acceleration_are_the_position_s_derivatives(curve: Curve, 
 
 def test_a_free_shape_is_as_fast_as_its_limits_allow() -> None:
     drive = Drive(curve=CURVE)
-    course = first_course(drive)
+    course = first_trajectory(drive)
     seen = [course.at(course.start_time + course.duration * k / 2000) for k in range(2001)]
     used = (
         max(one.velocity for one in seen) / drive.profile.speed,
@@ -108,14 +108,14 @@ def test_a_free_shape_is_as_fast_as_its_limits_allow() -> None:
 
 
 def test_without_shaping_a_course_is_its_trip() -> None:
-    course = first_course(Drive())
-    assert course == Course(course.trip)
+    course = first_trajectory(Drive())
+    assert course == ReferenceTrajectory(course.trip)
     assert [course.at(one) for one in (3.0, 9.0)] == [course.trip.at(one) for one in (3.0, 9.0)]
 
 
 def test_no_way_takes_no_time_however_it_is_shaped() -> None:
     trip = FirstTrip(start_position=7.0, destination=7.0)
-    course = first_course(Drive(profile=Profile(smoothing=2.0), curve=CURVE, shaper=shaper(3.0), trip=trip))
+    course = first_trajectory(Drive(profile=Profile(smoothing=2.0), curve=CURVE, shaper=shaper(3.0), trip=trip))
     assert course.duration == 0.0
     assert course.at(5.0).position == 7.0
 

@@ -11,10 +11,10 @@ import pytest
 from comprope.drive.cosimulation import create, drive_of, interface
 from comprope.drive.hoist_dynamics import INPUTS, state_space
 from comprope.drive.parameters import Drive, FirstTrip, Servo
-from comprope.drive.s_curve import plan
 from comprope.drive.scheduled_plant import cells
 from comprope.drive.servo_control import design, sampled_speed_control
-from comprope.drive.simulator import DriveEngine
+from comprope.drive.simulator import DriveSimulator
+from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError, SimulationError
 from comprope.fmi.validation import interface_problems
 
@@ -22,12 +22,14 @@ STILL = {"destination": 50.0, "car_end_tension": 0.0, "counterweight_end_tension
 ROPES = {"destination": 50.0, "car_end_tension": 1250.0, "counterweight_end_tension": 660.0}
 
 
-def engine(inputs: Mapping[str, Any] = STILL, start_time: float = 0.0, **parameters: float) -> DriveEngine:
+def engine(inputs: Mapping[str, Any] = STILL, start_time: float = 0.0, **parameters: float) -> DriveSimulator:
     names = {name.replace("__", "."): value for name, value in parameters.items()}
     return create(names, inputs, start_time)
 
 
-def run(drive: DriveEngine, steps: Iterable[float], inputs: Mapping[str, Any] = STILL, time: float = 0.0) -> list[dict[str, Any]]:
+def run(
+    drive: DriveSimulator, steps: Iterable[float], inputs: Mapping[str, Any] = STILL, time: float = 0.0
+) -> list[dict[str, Any]]:
     found = []
     for step in steps:
         drive.step(time, step, inputs)
@@ -124,7 +126,7 @@ def small_trip(load: float) -> tuple[list[dict[str, Any]], np.ndarray]:
     loop = control.interconnect(
         [position, speed, force, hoist], inputs=["x", "v", "a", *INPUTS[1:]], outputs=["x_c", "s", "v_s"], check_unused=False
     )
-    trip = plan(drive.profile, 0.0, 0.015, 0.0)
+    trip = plan_s_curve(drive.profile, 0.0, 0.015, 0.0)
     references = [trip.at(k * period) for k in range(n + 1)]
     u = np.array([[one.position, one.velocity, one.acceleration, load, 0.0] for one in references]).T
     expected = control.forced_response(loop, inputs=u).outputs
@@ -186,7 +188,7 @@ def test_only_its_own_states_are_accepted() -> None:
         engine().set_state(b"abc")
 
 
-def drive_to(drive: DriveEngine, calls: Mapping[float, float], stop: float) -> list[dict[str, Any]]:
+def drive_to(drive: DriveSimulator, calls: Mapping[float, float], stop: float) -> list[dict[str, Any]]:
     """Outputs every 0.1 s; from each time in `calls` on the input `destination` is the value given there."""
     inputs, found = dict(STILL), []
     for k in range(round(stop / 0.1)):

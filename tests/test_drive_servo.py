@@ -6,10 +6,10 @@ import pytest
 
 from comprope.drive.hoist_dynamics import T_C, T_W, V_C, V_S, X_C, X_W, S, holding_force, lumps, moving_mass, state_space
 from comprope.drive.parameters import Drive, Plant, Servo, Shaft
-from comprope.drive.s_curve import Motion
 from comprope.drive.scheduled_plant import cells
 from comprope.drive.servo_control import continuous_speed_control, design, sampled_speed_control
 from comprope.drive.stability_margins import margins, open_loop, unstable_positions
+from comprope.drive.trajectory.s_curve import TrajectoryPoint
 
 DRIVE = Drive()
 POSITIONS = [0.0, 10.0, 25.0, 50.0]
@@ -70,7 +70,7 @@ def test_speed_control_places_the_poles_on_rigid_ropes() -> None:
 def test_the_law_is_the_sampled_speed_control() -> None:
     law, errors, integral, forces = design(DRIVE), [0.1, -0.02, 0.05, 0.0, 0.3], 0.0, []
     for error in errors:
-        force, integral = law.force(integral, Motion(0.0, error), 0.0, 0.0, (-1e9, 1e9))
+        force, integral = law.force(integral, TrajectoryPoint(0.0, error), 0.0, 0.0, (-1e9, 1e9))
         forces.append(force)
     response = control.forced_response(sampled_speed_control(DRIVE), inputs=errors)
     assert forces == pytest.approx(list(response.outputs), rel=1e-12)
@@ -78,8 +78,8 @@ def test_the_law_is_the_sampled_speed_control() -> None:
 
 def test_the_integral_waits_while_the_motor_is_at_its_limit() -> None:
     law = design(DRIVE)
-    assert law.force(0.5, Motion(0.0, 1.0), 0.0, 0.0, (-10.0, 10.0)) == (10.0, 0.5)
-    _, integral = law.force(0.5, Motion(0.0, -1.0), 0.0, 0.0, (-1e9, 1e9))
+    assert law.force(0.5, TrajectoryPoint(0.0, 1.0), 0.0, 0.0, (-10.0, 10.0)) == (10.0, 0.5)
+    _, integral = law.force(0.5, TrajectoryPoint(0.0, -1.0), 0.0, 0.0, (-1e9, 1e9))
     assert integral < 0.5
 
 

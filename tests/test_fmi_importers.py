@@ -15,9 +15,9 @@ from comprope.fmi.package import Origin, build
 
 TOYS = Path(__file__).parent / "fmi_toys"
 comprope.__path__.append(str(TOYS))
-from comprope.spring.engine import Spring, interface  # noqa: E402
+from comprope.spring.cosimulation import Spring, interface  # noqa: E402
 
-ENTRY = "from .spring.engine import interface\n\nINTERFACE = interface(0.25)\n"
+ENTRY = "from .spring.cosimulation import interface\n\nINTERFACE = interface(0.25)\n"
 FATAL = "4"
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import comprope
 from comprope.errors import InputError, SimulationError
 from comprope.fmi import error_reporting
-from comprope.fmi.instance import Run, RunState, pack, unpack
+from comprope.fmi.instance import Instance, InstanceState, pack, unpack
 from comprope.fmi.model_description import completed
 from comprope.fmi.model_interface import ModelInterface, Variable, parameters_of
 from comprope.fmi.package import Origin, build
@@ -23,28 +23,28 @@ from comprope.fmi.validation import step_problem
 from comprope.quantities import Component, quantity
 
 comprope.__path__.append(str(Path(__file__).parent / "fmi_toys"))
-from comprope.spring.engine import interface  # noqa: E402
+from comprope.spring.cosimulation import interface  # noqa: E402
 
 REFS = {one.name: place for place, one in enumerate(interface(0.0).variables)}
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 
-def begun(**inputs: float) -> Run:
-    run = Run(interface(0.25))
+def begun(**inputs: float) -> Instance:
+    instance = Instance(interface(0.25))
     for name, value in inputs.items():
-        run.write("real", [REFS[name]], [value])
-    run.begin()
-    return run
+        instance.set_values("real", [REFS[name]], [value])
+    instance.exit_initialization()
+    return instance
 
 
-def place(run: Run) -> Any:
-    return run.read("real", [REFS["place[1]"]])[0]
+def place(instance: Instance) -> Any:
+    return instance.get_values("real", [REFS["place[1]"]])[0]
 
 
-def stepped(run: Run, first: int, last: int) -> Run:
+def stepped(instance: Instance, first: int, last: int) -> Instance:
     for count in range(first, last):
-        run.step(count * 0.01, 0.01)
-    return run
+        instance.do_step(count * 0.01, 0.01)
+    return instance
 
 
 class Damper(Component):
@@ -61,12 +61,12 @@ def test_parameters_of_a_component() -> None:
 
 
 def test_outputs_before_the_run_follow_the_values_set() -> None:
-    run = Run(interface(0.25))
-    assert place(run) == 0.25
-    run.write("real", [REFS["spring.place"]], [0.5])
-    assert place(run) == 0.5
-    run.begin()
-    assert place(run) == 0.5
+    instance = Instance(interface(0.25))
+    assert place(instance) == 0.25
+    instance.set_values("real", [REFS["spring.place"]], [0.5])
+    assert place(instance) == 0.5
+    instance.exit_initialization()
+    assert place(instance) == 0.5
 
 
 @pytest.mark.parametrize(
@@ -78,31 +78,31 @@ def test_outputs_before_the_run_follow_the_values_set() -> None:
     ],
 )
 def test_a_refused_value_changes_nothing(kind: Any, name: str, value: Any, sentence: str) -> None:
-    run = Run(interface(0.25))
+    instance = Instance(interface(0.25))
     with pytest.raises(InputError) as caught:
-        run.write(kind, [REFS[name]], [value])
+        instance.set_values(kind, [REFS[name]], [value])
     assert str(caught.value) == sentence
-    assert run.read("real", [REFS["spring.mass"]]) == [2.0]
+    assert instance.get_values("real", [REFS["spring.mass"]]) == [2.0]
 
 
 def test_no_step_before_the_run_begins() -> None:
     with pytest.raises(InputError, match="only after initialization has ended"):
-        Run(interface(0.25)).step(0.0, 0.01)
+        Instance(interface(0.25)).do_step(0.0, 0.01)
 
 
 def test_integers_have_a_range() -> None:
-    run = Run(interface(0.25))
-    run.write("integer", [REFS["mode"]], [7])
+    instance = Instance(interface(0.25))
+    instance.set_values("integer", [REFS["mode"]], [7])
     with pytest.raises(InputError, match="parameter mode = 7: 0 to 3 is accepted"):
-        run.begin()
+        instance.exit_initialization()
 
 
 def test_a_failed_run_has_no_outputs_but_its_settings() -> None:
-    run = begun(force=0.5)
-    run.failure = "broken"
+    instance = begun(force=0.5)
+    instance.failure = "broken"
     with pytest.raises(InputError, match="the error was: broken"):
-        place(run)
-    assert run.read("real", [REFS["force"]]) == [0.5]
+        place(instance)
+    assert instance.get_values("real", [REFS["force"]]) == [0.5]
 
 
 @pytest.mark.parametrize(
@@ -124,30 +124,30 @@ def test_steps(time: float, dt: float, reached: float, stop: float | None, sente
 
 
 def test_restored_runs_go_on_bit_for_bit() -> None:
-    run = stepped(begun(force=1.0 / 3.0), 0, 20)
-    saved = run.save("toy")
-    expected = place(stepped(run, 20, 50))
-    run.restore(saved, "toy")
-    assert place(stepped(run, 20, 50)) == expected
+    instance = stepped(begun(force=1.0 / 3.0), 0, 20)
+    saved = instance.save_state("toy")
+    expected = place(stepped(instance, 20, 50))
+    instance.restore_state(saved, "toy")
+    assert place(stepped(instance, 20, 50)) == expected
     other = begun(force=9.0)
-    other.restore(saved, "toy")
+    other.restore_state(saved, "toy")
     assert place(stepped(other, 20, 50)) == expected
-    assert other.save("toy") == run.save("toy")
+    assert other.save_state("toy") == instance.save_state("toy")
 
 
 def test_a_run_saved_before_it_began_can_begin_again() -> None:
-    run = Run(interface(0.25))
-    saved = run.save("toy")
-    run.begin()
-    run.restore(saved, "toy")
-    run.write("real", [REFS["spring.mass"]], [3.0])
-    run.begin()
-    assert run.read("real", [REFS["spring.mass"]]) == [3.0]
+    instance = Instance(interface(0.25))
+    saved = instance.save_state("toy")
+    instance.exit_initialization()
+    instance.restore_state(saved, "toy")
+    instance.set_values("real", [REFS["spring.mass"]], [3.0])
+    instance.exit_initialization()
+    assert instance.get_values("real", [REFS["spring.mass"]]) == [3.0]
 
 
 @given(st.dictionaries(st.text(), FINITE | st.booleans() | st.integers() | st.text()), FINITE, st.none() | FINITE, st.binary())
 def test_states_keep_every_bit(values: dict[str, Any], time: float, stop: float | None, engine: bytes) -> None:
-    state = RunState("toy", values, {}, values, 0.0, stop, time, True, None)
+    state = InstanceState("toy", values, {}, values, 0.0, stop, time, True, None)
     back, engine_back = unpack(pack(state, engine), "toy")
     assert repr(back) == repr(state)  # tells -0.0 from 0.0 and True from 1
     assert engine_back == engine
@@ -155,16 +155,16 @@ def test_states_keep_every_bit(values: dict[str, Any], time: float, stop: float 
 
 @given(st.binary(), st.integers(0, 400))
 def test_other_bytes_are_refused(noise: bytes, cut: int) -> None:
-    whole = Run(interface(0.25)).save("toy")
+    whole = Instance(interface(0.25)).save_state("toy")
     for data in (noise, whole[: cut % len(whole)], whole + b"x"):
         with pytest.raises(InputError, match="saved state"):
             unpack(data, "toy")
 
 
 def test_outputs_that_are_not_finite_are_an_error() -> None:
-    run = begun(force=668.0)
+    instance = begun(force=668.0)
     with pytest.raises(SimulationError, match=r"the model gave place\[1\] = nan"):
-        run.step(0.0, 0.01)
+        instance.do_step(0.0, 0.01)
 
 
 @pytest.mark.parametrize(

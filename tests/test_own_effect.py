@@ -17,7 +17,7 @@ from fmpy import read_model_description
 
 from comprope import consent
 from comprope.drive.parameters import Profile
-from comprope.drive.s_curve import plan
+from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError, SimulationError
 from comprope.rope.effects import REGISTRY, names_of, user_effects
 from comprope.rope.effects.kernel_checks import require_sound
@@ -129,7 +129,7 @@ def test_a_model_written_elsewhere_names_the_same_file(examples, tmp_path):
 def test_the_rope_moves_otherwise_and_its_energy_balances(examples):
     still = {"effects.rail_joints.kick": 0.0, "effects.pit_brush.damping": 0.0}
     ropes = [CompensationRope(one) for one in (examples, with_changes(examples, still))]
-    trip, apart = plan(Profile(), 20.0, 26.0, 0.0), 0.0
+    trip, apart = plan_s_curve(Profile(), 20.0, 26.0, 0.0), 0.0
     for rope in ropes:
         rope.settle(20.0, 30.0)
     for _ in range(100):
@@ -155,7 +155,8 @@ def test_tangents_are_right_given_or_found_by_differences(examples):
 
 
 def test_a_stiff_force_without_tangents_costs_no_more_iterations(examples):
-    rope, trip = CompensationRope(with_changes(examples, {"effects.pit_spring.stiffness": 1e5})), plan(Profile(), 20.0, 26.0, 0.0)
+    rope = CompensationRope(with_changes(examples, {"effects.pit_spring.stiffness": 1e5}))
+    trip = plan_s_curve(Profile(), 20.0, 26.0, 0.0)
     rope.settle(20.0, 30.0)
     for _ in range(50):
         ride(rope, trip, 0.02)
@@ -163,7 +164,8 @@ def test_a_stiff_force_without_tangents_costs_no_more_iterations(examples):
 
 
 def test_an_effect_whose_force_is_lost_on_the_way_is_named(examples):
-    rope, trip = CompensationRope(with_changes(examples, {"effects.root.size": 1.0})), plan(Profile(), 20.0, 26.0, 0.0)
+    rope = CompensationRope(with_changes(examples, {"effects.root.size": 1.0}))
+    trip = plan_s_curve(Profile(), 20.0, 26.0, 0.0)
     rope.settle(20.0, 30.0)
     with pytest.raises(SimulationError) as caught:
         for _ in range(200):

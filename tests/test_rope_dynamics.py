@@ -10,7 +10,7 @@ from scipy.optimize import brentq, least_squares
 from scipy.special import j0, y0
 
 from comprope.drive.parameters import Profile
-from comprope.drive.s_curve import Motion, plan
+from comprope.drive.trajectory.s_curve import TrajectoryPoint, plan_s_curve
 from comprope.errors import SimulationError
 from comprope.rope.parameters import Sensor
 from comprope.rope.simulator.cosimulation import create, interface
@@ -20,7 +20,7 @@ from .rope_tower import TOWER, ride, rope, way
 
 G = TOWER.shaft.gravity
 RHO = TOWER.rope.mass_per_length
-SHORT = plan(Profile(), 20.0, 26.0, 0.5)  # 2 m/s at most; all accelerations join smoothly
+SHORT = plan_s_curve(Profile(), 20.0, 26.0, 0.5)  # 2 m/s at most; all accelerations join smoothly
 
 
 @cache
@@ -28,7 +28,7 @@ def ridden(
     origin: float, destination: float, until: float, changes: tuple[tuple[str, float], ...] = ()
 ) -> tuple[CompensationRope, np.ndarray]:
     """The rope after a trip from rest, and its coordinates every 16 ms."""
-    moving, trip = rope(dict(changes)), plan(Profile(), origin, destination, 0.5)
+    moving, trip = rope(dict(changes)), plan_s_curve(Profile(), origin, destination, 0.5)
     moving.settle(origin, moving.model.shaft.height - origin)
     rows = []
     for _ in range(round(until / 0.016)):
@@ -65,7 +65,7 @@ def plucked(changes: dict[str, float], until: float, height: float) -> np.ndarra
     """Displacement at a height every 20 ms after the counterweight's end has moved aside by 10 mm in half a second."""
     moving = rope({"rope.bending_damping": 0.0, "solver.numerical_damping": 0.0} | changes)
     moving.settle(0.0, 50.0)
-    path, rows = way(TOWER.sheave.radius, 50.0, Motion(0.0), Motion(0.0)).reshape(4, 6), []
+    path, rows = way(TOWER.sheave.radius, 50.0, TrajectoryPoint(0.0), TrajectoryPoint(0.0)).reshape(4, 6), []
     path[3, 3] += 0.01
     moving.step(0.5, path.ravel())
     path[:, :3] = path[:, 3:]
@@ -108,7 +108,7 @@ def test_a_plucked_side_rings_as_a_hanging_string(changes: dict[str, float]) -> 
 def test_tension_jumps_across_the_accelerating_sheave(inertia: float) -> None:
     """By J w' / r, and by what accelerates the rope that lies on the sheave: rho pi r a."""
     moving = rope({"sheave.inertia": inertia, "rope.bending_damping": 0.0})
-    trip, radius, jumps = plan(Profile(speed=6.0), 5.0, 45.0, 0.0), TOWER.sheave.radius, []
+    trip, radius, jumps = plan_s_curve(Profile(speed=6.0), 5.0, 45.0, 0.0), TOWER.sheave.radius, []
     moving.settle(5.0, 45.0)
     while (time := float(moving.state.time[0])) < 5.0:
         ride(moving, trip, 0.02)
@@ -293,7 +293,7 @@ def test_a_normal_trip_never_halves_a_step(trip: tuple[float, float]) -> None:
 def test_a_fast_trip_never_halves_a_step() -> None:
     """At 9 m/s a step winds a good part of an element on, which the start of the iteration must foresee."""
     moving, fast = rope({"shaft.height": 80.0}), Profile(speed=9.0, acceleration=3.0, jerk=3.0)
-    trip = plan(fast, 0.0, 80.0, 0.1)
+    trip = plan_s_curve(fast, 0.0, 80.0, 0.1)
     moving.settle(0.0, 80.0)
     for _ in range(round(trip.end_time / 0.02)):
         ride(moving, trip, 0.02)
@@ -314,7 +314,7 @@ def test_a_violent_input_is_survived_or_refused_never_nan(jump: float, damping: 
     """The car jumps within a millisecond; the rope then hangs still, or says what went wrong and where."""
     moving = rope({"solver.numerical_damping": damping})
     moving.settle(5.0, 45.0)
-    path = way(TOWER.sheave.radius, 50.0, Motion(5.0), Motion(5.0)).reshape(4, 6)
+    path = way(TOWER.sheave.radius, 50.0, TrajectoryPoint(5.0), TrajectoryPoint(5.0)).reshape(4, 6)
     path[0, 3] -= jump
     try:
         moving.step(0.001, path.ravel())

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from comprope.drive.parameters import Profile
-from comprope.drive.s_curve import plan
+from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.quantities import quantities
 from comprope.rope.compiler.entry_points import compiled
 from comprope.rope.compiler.workspace import Bound
@@ -407,7 +407,7 @@ def short_run(effect: str) -> tuple[dict[str, float], float, np.ndarray, dict[st
     """Energies, residual, state and outputs after two seconds of acceleration with an effect, 20 m up the tower."""
     moving = rope(nominal(effect))
     moving.settle(20.0, 30.0)
-    trip = plan(Profile(), 20.0, 26.0, 0.0)
+    trip = plan_s_curve(Profile(), 20.0, 26.0, 0.0)
     for _ in range(100):
         ride(moving, trip, 0.02)
     state = np.concatenate([moving.state.q, moving.state.v, moving.state.history])
@@ -443,7 +443,7 @@ def curvature(q: np.ndarray, n: int, element: float) -> np.ndarray:
 def test_wire_friction_remembers_where_it_has_slipped() -> None:
     """The slip of every node after a trip, against Dahl's equation integrated apart along the same curvatures."""
     moving, effect = rope(nominal("bending_hysteresis")), REGISTRY["bending_hysteresis"]
-    trip, n = plan(Profile(), 20.0, 26.0, 0.0), moving.n
+    trip, n = plan_s_curve(Profile(), 20.0, 26.0, 0.0), moving.n
     moving.settle(20.0, 30.0)
     before, slip = curvature(moving.state.q, n, moving.element), np.zeros(n - 2)
     for _ in range(500):

@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from comprope.drive.s_curve import Motion
+from comprope.drive.trajectory.s_curve import TrajectoryPoint
 from comprope.errors import InputError
 from comprope.rope.model_file import with_changes
 from comprope.rope.runtime.parameter_vector import DECLARED
@@ -200,7 +200,7 @@ def test_a_rope_takes_the_same_steps_with_and_without_derivatives_at_any_speed(s
     tower, acceleration, dt = with_changes(TOWER, {"solver.step": 0.005}), 6.0, 0.02
     plain, beside = CompensationRope(tower), SensitiveRope(tower, {"mass": {"sheave.mass": 1.0}})
     times = np.arange(0.0, speed / acceleration + 2.0 * dt, dt)
-    car = [Motion(2.0 + 0.5 * acceleration * t * t, acceleration * t, acceleration) for t in times]
+    car = [TrajectoryPoint(2.0 + 0.5 * acceleration * t * t, acceleration * t, acceleration) for t in times]
     for rope in (plain, beside):
         rope.settle(2.0, tower.shaft.height - 2.0)
         for before, after in pairwise(car):

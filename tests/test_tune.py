@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from comprope.drive.parameters import CompensationRopes, Curve, Drive, FirstTrip, Profile, Servo, Shaft, Shaper
-from comprope.drive.reference_trajectory import first_course
-from comprope.drive.simulator import DriveEngine
+from comprope.drive.simulator import DriveSimulator
+from comprope.drive.trajectory.reference_trajectory import first_trajectory
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.rope import CompensationRope
 from comprope_system import cli
@@ -116,7 +116,7 @@ def test_the_car_bounces_as_the_drive_s_own() -> None:
     trip = FirstTrip(destination=6.0)
     drive = Drive(trip=trip, profile=Profile(jerk=8.0), rope=CompensationRopes(count=0.0))
     still = {"destination": 6.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0}
-    engine, course, dt = DriveEngine(drive, still, 0.0), first_course(drive), 0.02
+    engine, course, dt = DriveSimulator(drive, still, 0.0), first_trajectory(drive), 0.02
     moved = moves(course, 10.0, dt)
     seen = []
     for k in range(len(moved.time)):

@@ -12,7 +12,7 @@ ENDINGS = {"page": (".html", ".htm"), "picture": (".png", ".pdf", ".svg")}
 
 
 @contextmanager
-def whole_file(path: str | Path) -> Iterator[Path]:
+def atomic_write(path: str | Path) -> Iterator[Path]:
     """A temporary path to write to, which becomes `path` when the block ends, and vanishes when it fails.
 
     Missing folders are made. Raises `InputError` if the file cannot be written.
@@ -29,7 +29,7 @@ def whole_file(path: str | Path) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def text_of(path: str | Path) -> str:
+def read_text_file(path: str | Path) -> str:
     """The text of a file; raises `InputError` if it is absent, unreadable or not UTF-8."""
     try:
         return Path(path).read_bytes().decode("utf-8-sig")

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comprope.drive.parameters import Profile
-from comprope.drive.reference_trajectory import Course
-from comprope.drive.s_curve import Motion, Trip, plan
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
+from comprope.drive.trajectory.s_curve import SCurve, TrajectoryPoint, plan_s_curve
 from comprope.rope.parameters import Base
 from comprope.rope.simulator.rope import CompensationRope
 
@@ -22,26 +22,26 @@ INTERVAL = 0.02  # s between samples
 START = 0.5  # s at rest before a trip
 
 
-def trip_of(distance: float, speed: float, acceleration: float, jerk: float, origin: float = 0.0) -> Trip:
+def trip_of(distance: float, speed: float, acceleration: float, jerk: float, origin: float = 0.0) -> SCurve:
     """The trip up over `distance` [m] within the limits of speed [m/s], acceleration [m/s2] and jerk [m/s3]."""
     limits = Profile(speed=speed, acceleration=acceleration, jerk=jerk)
-    return plan(limits, origin, origin + distance, START)
+    return plan_s_curve(limits, origin, origin + distance, START)
 
 
-def ends_path(model: Base, trip: Trip | Course, begin: float, end: float) -> Floats:
+def ends_path(model: Base, trip: SCurve | ReferenceTrajectory, begin: float, end: float) -> Floats:
     """The way of both ends between two times [s], as `CompensationRope.step` takes it."""
     height, radius = model.shaft.height, model.sheave.radius
     rows = [_moments(trip.at(time), height, radius) for time in (begin, end)]
     return np.concatenate(rows, axis=1).ravel()
 
 
-def _moments(motion: Motion, height: float, radius: float) -> Floats:
+def _moments(motion: TrajectoryPoint, height: float, radius: float) -> Floats:
     """Position, velocity and acceleration (4, 3) of car x, car y, counterweight x and y; x is down."""
     x, v, a = motion.position, motion.velocity, motion.acceleration
     return np.array([[-x, -v, -a], [-radius, 0.0, 0.0], [x - height, v, a], [radius, 0.0, 0.0]])
 
 
-def ride(rope: CompensationRope, trip: Trip | Course, until: float, interval: float = INTERVAL) -> Iterator[float]:
+def ride(rope: CompensationRope, trip: SCurve | ReferenceTrajectory, until: float, interval: float = INTERVAL) -> Iterator[float]:
     """Settle the rope at the trip's origin and take it along; gives the time [s] of each sample, 0 first.
 
     Raises `SimulationError` where a step cannot be saved.
@@ -55,7 +55,7 @@ def ride(rope: CompensationRope, trip: Trip | Course, until: float, interval: fl
 
 
 def record(
-    model: Base, trip: Trip | Course, until: float, look: Callable[[CompensationRope], Floats]
+    model: Base, trip: SCurve | ReferenceTrajectory, until: float, look: Callable[[CompensationRope], Floats]
 ) -> tuple[Floats, Floats]:
     """Times (n,) and what `look` sees of the rope at each of them (n, ...)."""
     rope = CompensationRope(model)

@@ -17,9 +17,9 @@ from ..fmi.model_interface import ModelInterface, Variable, parameters_of
 from ..validation_messages import problems
 from .hoist_dynamics import holding_force
 from .parameters import Drive
-from .reference_trajectory import first_course
-from .simulator import DriveEngine, compensation_pulls, input_problems
+from .simulator import DriveSimulator, compensation_pulls, input_problems
 from .stability_margins import unstable_positions
+from .trajectory.reference_trajectory import first_trajectory
 
 NAME = "ElevatorDrive"
 # What makes the interface inside an FMU.
@@ -29,7 +29,7 @@ from .drive.cosimulation import interface
 INTERFACE = interface()
 """
 _DESCRIPTION = "Elevator drive: jerk-limited trips, position and speed servo, car and counterweight on elastic hoist ropes"
-_PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in ("lift", "trip"))
+_PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in ("elevator", "trip"))
 _REST_AFTER = 5.0  # s that a run goes on after the first trip, unless told otherwise
 _REAL_OUTPUTS = (  # name, unit, nominal, help
     ("car_position", "m", 10.0, "car height above the bottom landing"),
@@ -53,12 +53,12 @@ _FLAGS = (
 def interface(drive: Drive | None = None) -> ModelInterface:
     """The drive's variables and maker; parameters start at the values of `drive`, by default the declared ones."""
     chosen = drive or Drive()
-    stop_time = ceil(first_course(chosen).end_time + _REST_AFTER)
+    stop_time = ceil(first_trajectory(chosen).end_time + _REST_AFTER)
     variables = _parameters(chosen) + _inputs(chosen) + _outputs()
     return ModelInterface(NAME, _DESCRIPTION, variables, create, stop_time=float(stop_time), pictures=_PICTURES)
 
 
-def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> DriveEngine:
+def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> DriveSimulator:
     """A drive at rest at `start_time` [s] from values by name, as declared by `interface`.
 
     Raises `InputError` with one sentence for each problem: unknown, impossible or contradicting values, a torque limit
@@ -69,7 +69,7 @@ def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time:
     found = found or _torque_problems(drive, inputs) + _gain_problems(drive)
     if found:
         raise InputError("; ".join(found))
-    return DriveEngine(drive, inputs, start_time)
+    return DriveSimulator(drive, inputs, start_time)
 
 
 def drive_of(parameters: Mapping[str, Any]) -> Drive:

@@ -21,7 +21,7 @@ Tensions, not elongations, are the states: rope that runs on or off the sheave c
 without creep, which exceeds its side's mean by mu g L/(2 EA) (the term mu g v_s/2: a slow trip under constant loads
 moves the car exactly as far as the rim); and nothing jumps when the stiffness is scheduled with the position. Not in
 the model: creep, slip, slack, the ropes' own waves, and the momentum of rope that changes sides. Unvalidated against
-measurements of a lift.
+measurements of an elevator.
 """
 
 from dataclasses import dataclass

@@ -15,7 +15,7 @@ import control
 
 from .hoist_dynamics import moving_mass
 from .parameters import Drive
-from .s_curve import Motion
+from .trajectory.s_curve import TrajectoryPoint
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Law:
     acceleration_feedforward: float  # N per m/s2
 
     def force(
-        self, integral: float, reference: Motion, way: float, velocity: float, limits: tuple[float, float]
+        self, integral: float, reference: TrajectoryPoint, way: float, velocity: float, limits: tuple[float, float]
     ) -> tuple[float, float]:
         """The motor's force [N] and the next integral, from the encoder's `way` [m] and `velocity` [m/s].
 

@@ -13,28 +13,28 @@ import numpy as np
 from ..errors import InputError, SimulationError
 from .hoist_dynamics import V_C, V_S, V_W, X_C, X_W, S, holding_force
 from .parameters import Drive
-from .reference_trajectory import course
-from .s_curve import Motion, plan
 from .scheduled_plant import cells
 from .servo_control import design
 from .state import Memory
+from .trajectory.reference_trajectory import reference_trajectory
+from .trajectory.s_curve import TrajectoryPoint, plan_s_curve
 
 TENSIONS = ("car_end_tension", "counterweight_end_tension")
 _FORCE, _PULLS = 8, slice(9, 11)  # places of the held inputs in the full vector
 _SAME_TIME = 1e-6  # times closer than this share of a sample period are the same: hosts add up their steps
 
 
-class DriveEngine:
+class DriveSimulator:
     """One drive, from rest; see `engine.interface` for its inputs and outputs."""
 
     def __init__(self, drive: Drive, inputs: Mapping[str, Any], start_time: float) -> None:
         """At rest at `start_time` [s], the motor holding car and counterweight against the tensions in `inputs`."""
         self._drive, self._start, self._home = drive, start_time, drive.trip.start_position
         self._law, self._cells = design(drive), cells(drive)
-        trip = plan(drive.profile, self._home, drive.trip.destination, drive.trip.start_time)
+        trip = plan_s_curve(drive.profile, self._home, drive.trip.destination, drive.trip.start_time)
         pulls, heard = compensation_pulls(drive, inputs), inputs["destination"]
         self._memory = Memory(0, self._cells.at(self._home), 0.0, 0.0, heard, pulls, trip, np.zeros(11))
-        self._course = course(drive, trip)
+        self._course = reference_trajectory(drive, trip)
         self._hold()
 
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
@@ -82,7 +82,7 @@ class DriveEngine:
     def set_state(self, state: bytes) -> None:
         """Restore what `get_state` gave to an engine with the same parameters and start time."""
         self._memory = Memory.unpack(state)
-        self._course = course(self._drive, self._memory.trip)
+        self._course = reference_trajectory(self._drive, self._memory.trip)
         self._hold()
 
     def _now(self) -> float:
@@ -99,14 +99,14 @@ class DriveEngine:
         """What the controller does once in a sample period: take a call, read the encoder, set the torque."""
         memory, full, time = self._memory, self._memory.full, self._now()
         if time >= self._course.end_time and destination != memory.heard:
-            memory.trip = plan(self._drive.profile, memory.trip.destination, destination, time)
+            memory.trip = plan_s_curve(self._drive.profile, memory.trip.destination, destination, time)
             memory.heard = destination
-            self._course = course(self._drive, memory.trip)
+            self._course = reference_trajectory(self._drive, memory.trip)
         way, velocity = float(full[S]), float(full[V_S])
         self._check_in_shaft(self._home + way, time)
         memory.cell = self._cells.at(self._home + way)
         at = self._course.at(time)
-        reference = Motion(at.position - self._home, at.velocity, at.acceleration)
+        reference = TrajectoryPoint(at.position - self._home, at.velocity, at.acceleration)
         full[_FORCE], memory.integral = self._law.force(memory.integral, reference, way, velocity, self._limits)
 
     def _move(self, until: float, same: float) -> None:

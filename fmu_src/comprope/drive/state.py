@@ -7,7 +7,7 @@ import numpy as np
 
 from ..errors import InputError
 from .hoist_dynamics import INPUTS, STATES
-from .s_curve import Trip
+from .trajectory.s_curve import SCurve
 
 _LAYOUT = struct.Struct(f"<8s2q5d7d{len(STATES) + len(INPUTS)}d")
 _MARK = b"drive 1\0"
@@ -28,7 +28,7 @@ class Memory:
     integral: float
     heard: float
     pulls: tuple[float, float]
-    trip: Trip
+    trip: SCurve
     full: np.ndarray
 
     def pack(self) -> bytes:
@@ -42,4 +42,4 @@ class Memory:
         if len(state) != _LAYOUT.size or not state.startswith(_MARK):
             raise InputError(f"state of {len(state)} bytes: only a state saved by this version of the drive is accepted")
         _, periods, cell, elapsed, integral, heard, car, counterweight, *rest = _LAYOUT.unpack(state)
-        return cls(periods, cell, elapsed, integral, heard, (car, counterweight), Trip(*rest[:7]), np.array(rest[7:]))
+        return cls(periods, cell, elapsed, integral, heard, (car, counterweight), SCurve(*rest[:7]), np.array(rest[7:]))

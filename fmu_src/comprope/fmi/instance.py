@@ -8,14 +8,14 @@ from typing import Any
 
 from ..errors import InputError, SimulationError
 from . import validation
-from .model_interface import Engine, Kind, ModelInterface, Role, Value, Variable
+from .model_interface import Kind, ModelInterface, Role, Simulator, Value, Variable
 
 _MAGIC = b"comprope run 1\n"
 _LENGTHS = struct.Struct("<QQ")
 
 
 @dataclass(frozen=True)
-class RunState:
+class InstanceState:
     """Where a run stands. Floats keep every bit: they are written with all the digits they need."""
 
     model: str
@@ -29,37 +29,37 @@ class RunState:
     failure: str | None
 
 
-def pack(state: RunState, engine: bytes) -> bytes:
+def pack(state: InstanceState, simulator: bytes) -> bytes:
     """The run as bytes, valid in any process that has the same FMU."""
     head = json.dumps(asdict(state)).encode()
-    return _MAGIC + _LENGTHS.pack(len(head), len(engine)) + head + engine
+    return _MAGIC + _LENGTHS.pack(len(head), len(simulator)) + head + simulator
 
 
-def unpack(data: bytes, model: str) -> tuple[RunState, bytes]:
-    """The run and the engine's state; raises `InputError` for bytes that are not a state of `model`."""
+def unpack(data: bytes, model: str) -> tuple[InstanceState, bytes]:
+    """The run and the simulator's state; raises `InputError` for bytes that are not a state of `model`."""
     try:
-        state, engine = _parts(data)
+        state, simulator = _parts(data)
     except (ValueError, TypeError, struct.error) as error:
         raise InputError(f"saved state: {len(data)} bytes that are not a whole state of this FMU") from error
     if state.model != model:
         raise InputError(f"saved state: made by {state.model}; only states of {model} are accepted")
-    return state, engine
+    return state, simulator
 
 
-def _parts(data: bytes) -> tuple[RunState, bytes]:
+def _parts(data: bytes) -> tuple[InstanceState, bytes]:
     if not data.startswith(_MAGIC):
         raise ValueError("no state")
     start = len(_MAGIC) + _LENGTHS.size
-    head, engine = _LENGTHS.unpack(data[len(_MAGIC) : start])
-    if len(data) != start + head + engine:
+    head, simulator = _LENGTHS.unpack(data[len(_MAGIC) : start])
+    if len(data) != start + head + simulator:
         raise ValueError("cut or padded")
-    return RunState(**json.loads(data[start : start + head])), data[start + head :]
+    return InstanceState(**json.loads(data[start : start + head])), data[start + head :]
 
 
-class Run:
-    """A model's values by reference (their place among its variables), and its engine once there is one.
+class Instance:
+    """A model's values by reference (their place among its variables), and its simulator once there is one.
 
-    Before the run begins the engine is made when an output is asked for, and made anew after a value has changed.
+    Before the run begins the simulator is made when an output is asked for, and made anew after a value has changed.
     Every refusal is an `InputError`; a refused call changes nothing. While `failure` holds a sentence there are no
     steps and no outputs, so that not even an importer that overlooks errors can take old values for new ones.
     """
@@ -74,59 +74,59 @@ class Run:
         self._values: dict[str, Value] = {one.name: one.cast(one.start) for one in self._settable}
         self._first_inputs: dict[str, Value] = {}
         self._outputs: dict[str, Value] = {}
-        self._engine: Engine | None = None
+        self._simulator: Simulator | None = None
         self._running = False
 
     @property
-    def engine(self) -> Engine:
-        """The model's engine, made from the present values if there is none."""
-        return self._made_engine()
+    def simulator(self) -> Simulator:
+        """The model's simulator, made from the present values if there is none."""
+        return self._ensure_simulator()
 
-    def plan(self, start: float, stop: float | None) -> None:
+    def setup_experiment(self, start: float, stop: float | None) -> None:
         """Take over the start time and, if there is one, the stop time [s]; refused once the run has begun."""
         if self._running:
             raise InputError("start and stop time are accepted only before the run begins")
         self._start = self.time = start
         self._stop = stop
-        self._engine = None
+        self._simulator = None
 
-    def read(self, kind: Kind, refs: Sequence[int]) -> list[Value]:
+    def get_values(self, kind: Kind, refs: Sequence[int]) -> list[Value]:
         """Values by reference; all must be of one kind."""
         return [self._value(self._variable(kind, ref)) for ref in refs]
 
-    def write(self, kind: Kind, refs: Sequence[int], values: Sequence[Any]) -> None:
+    def set_values(self, kind: Kind, refs: Sequence[int], values: Sequence[Any]) -> None:
         """Set values by reference, all or none."""
         pairs = [(self._variable(kind, ref), value) for ref, value in zip(refs, values, strict=True)]
-        if problems := [text for one, value in pairs if (text := self._refusal(one, value))]:
+        if problems := [text for one, value in pairs if (text := self._set_problem(one, value))]:
             raise InputError("; ".join(problems))
         changed = self._values | {one.name: one.cast(value) for one, value in pairs}
         if not self._running and changed != self._values:
-            self._engine = None
+            self._simulator = None
         self._values = changed
 
-    def begin(self) -> None:
-        """Fix the parameters and make the engine; refuses impossible values, all problems in one sentence."""
-        self._made_engine()
+    def exit_initialization(self) -> None:
+        """Fix the parameters and make the simulator; refuses impossible values, all problems in one sentence."""
+        self._ensure_simulator()
         self._running = True
 
-    def step(self, time: float, dt: float) -> None:
+    def do_step(self, time: float, dt: float) -> None:
         """Advance from `time` by `dt` [s]; raises `SimulationError` if the model fails or an output is not finite."""
-        self._require_sound()
+        self._require_not_failed()
         if not self._running:
             raise InputError("a step is possible only after initialization has ended")
         if problem := validation.step_problem(time, dt, self.time, self._stop):
             raise InputError(problem)
         if problems := validation.range_problems(self.interface.of_role("input"), self._values):
             raise InputError("; ".join(problems))
-        engine = self._made_engine()
-        engine.step(time, dt, self._of_role("input"))
-        self._outputs = self._collected(engine)
+        simulator = self._ensure_simulator()
+        simulator.step(time, dt, self._of_role("input"))
+        self._outputs = self._checked_outputs(simulator)
         self.time = time + dt
 
-    def save(self, model: str) -> bytes:
+    def save_state(self, model: str) -> bytes:
         """The whole run as bytes that only `model` accepts."""
-        engine = self._engine.get_state() if self._running and self._engine is not None else b""
-        state = RunState(
+        simulator = self._simulator.get_state() if self._running and self._simulator is not None else b""
+        state = InstanceState(
             model=model,
             values=self._values,
             first_inputs=self._first_inputs,
@@ -137,17 +137,17 @@ class Run:
             running=self._running,
             failure=self.failure,
         )
-        return pack(state, engine)
+        return pack(state, simulator)
 
-    def restore(self, data: bytes, model: str) -> None:
+    def restore_state(self, data: bytes, model: str) -> None:
         """Go back to a saved run, bit for bit."""
-        state, engine_state = unpack(data, model)
-        engine = self._engine_for(state, engine_state) if state.running else None
+        state, simulator_state = unpack(data, model)
+        simulator = self._simulator_in_state(state, simulator_state) if state.running else None
         self._values, self._first_inputs, self._outputs = state.values, state.first_inputs, state.outputs
         self._start, self._stop, self.time = state.start, state.stop, state.time
-        self._engine, self._running, self.failure = engine, state.running, state.failure
+        self._simulator, self._running, self.failure = simulator, state.running, state.failure
 
-    def _require_sound(self) -> None:
+    def _require_not_failed(self) -> None:
         if self.failure:
             raise InputError(f"no steps and outputs after an error, unless reset or restored; the error was: {self.failure}")
 
@@ -160,45 +160,45 @@ class Run:
     def _value(self, variable: Variable) -> Value:
         if variable.role != "output":
             return self._values[variable.name]
-        self._require_sound()
-        self._made_engine()
+        self._require_not_failed()
+        self._ensure_simulator()
         return self._outputs[variable.name]
 
-    def _refusal(self, variable: Variable, value: Any) -> str | None:
+    def _set_problem(self, variable: Variable, value: Any) -> str | None:
         if variable.role == "output":
             return f"output {variable.name} = {value}: an output cannot be set"
         if variable.role == "parameter" and self._running:
             return f"parameter {variable.name} = {value}: fixed once the run has started; reset the FMU to change it"
         return validation.finite_problem(variable, value)
 
-    def _made_engine(self) -> Engine:
-        """The engine, made from the present values if there is none."""
-        if self._engine is None:
+    def _ensure_simulator(self) -> Simulator:
+        """The simulator, made from the present values if there is none."""
+        if self._simulator is None:
             if problems := validation.range_problems(self._settable, self._values):
                 raise InputError("; ".join(problems))
             inputs = self._of_role("input")
-            engine = self.interface.create(self._of_role("parameter"), inputs, self._start)
-            self._outputs = self._collected(engine)
-            self._engine, self._first_inputs = engine, inputs
-        return self._engine
+            simulator = self.interface.create(self._of_role("parameter"), inputs, self._start)
+            self._outputs = self._checked_outputs(simulator)
+            self._simulator, self._first_inputs = simulator, inputs
+        return self._simulator
 
-    def _engine_for(self, state: RunState, engine_state: bytes) -> Engine:
-        """An engine in a saved state: this run's own if that has the same parameters, else a new one."""
+    def _simulator_in_state(self, state: InstanceState, simulator_state: bytes) -> Simulator:
+        """A simulator in a saved state: the present one if that has the same parameters, else a new one."""
         parameters = self._of_role("parameter", state.values)
         same = self._running and parameters == self._of_role("parameter") and state.start == self._start
-        engine = self._engine if same else None
-        if engine is None:
-            engine = self.interface.create(parameters, state.first_inputs, state.start)
-        engine.set_state(engine_state)
-        return engine
+        simulator = self._simulator if same else None
+        if simulator is None:
+            simulator = self.interface.create(parameters, state.first_inputs, state.start)
+        simulator.set_state(simulator_state)
+        return simulator
 
     def _of_role(self, role: Role, values: Mapping[str, Value] | None = None) -> dict[str, Value]:
         source = self._values if values is None else values
         return {one.name: source[one.name] for one in self.interface.of_role(role)}
 
-    def _collected(self, engine: Engine) -> dict[str, Value]:
-        """The engine's outputs, every one finite."""
-        raw = engine.outputs()
+    def _checked_outputs(self, simulator: Simulator) -> dict[str, Value]:
+        """The simulator's outputs, every one finite."""
+        raw = simulator.outputs()
         outputs = self.interface.of_role("output")
         values = {one.name: one.cast(raw[one.name]) for one in outputs}
         if bad := [f"{one.name} = {values[one.name]}" for one in outputs if validation.finite_problem(one, values[one.name])]:

@@ -46,7 +46,7 @@ class Variable:
         return TYPES[self.kind](value)
 
 
-class Engine(Protocol):
+class Simulator(Protocol):
     """One instance of a model after its parameters are known; it owns its whole state."""
 
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
@@ -76,7 +76,7 @@ class ModelInterface:
     name: str
     description: str
     variables: tuple[Variable, ...]
-    create: Callable[[Mapping[str, Any], Mapping[str, Any], float], Engine]
+    create: Callable[[Mapping[str, Any], Mapping[str, Any], float], Simulator]
     stop_time: float = 10.0
     step_size: float = 0.001
     pictures: tuple[Path, ...] = ()

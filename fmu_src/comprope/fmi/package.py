@@ -19,7 +19,7 @@ from importlib import metadata
 from io import BytesIO
 from pathlib import Path
 
-from ..atomic_files import whole_file
+from ..atomic_files import atomic_write
 from ..errors import CompropeError, InputError
 from .documentation import page
 from .icon import icon
@@ -136,7 +136,7 @@ def build(
     xml = content.pop(DESCRIPTION)
     guid = str(uuid.UUID(digest(content | {DESCRIPTION: completed(xml, interface, origin.version, "")})[:32]))
     content[DESCRIPTION] = completed(xml, interface, origin.version, guid)
-    with whole_file(out / f"{interface.name}.fmu") as path:
+    with atomic_write(out / f"{interface.name}.fmu") as path:
         path.write_bytes(zipped(content))
     return out / f"{interface.name}.fmu"
 

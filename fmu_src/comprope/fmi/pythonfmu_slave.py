@@ -1,4 +1,4 @@
-"""A pythonfmu slave for any model: a thin skin around a `Run` that lets no error out untold."""
+"""A pythonfmu slave for any model: a thin skin around a `Instance` that lets no error out untold."""
 
 import sys
 from collections.abc import Callable, Sequence
@@ -8,7 +8,7 @@ from typing import Any, ClassVar, NoReturn, ParamSpec, TypeVar
 from pythonfmu import Boolean, Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real, String
 
 from . import error_reporting
-from .instance import Run
+from .instance import Instance
 from .model_interface import ModelInterface, Value, Variable
 from .pythonfmu_workarounds import keep_alive, leave_cleanly
 
@@ -53,73 +53,73 @@ class Face(Fmi2Slave):
             leave_cleanly(self.resources, type(self).__name__)
             if self.resources in sys.path:  # put there to load us; all is imported by now
                 sys.path.remove(self.resources)
-        self._run = Run(self.interface)
+        self._instance = Instance(self.interface)
         for one in self.interface.variables:
             self.register_variable(_declared(one), nested=False)
 
     @guarded
     def setup_experiment(self, start_time: float, stop_time: float | None = None, tolerance: float | None = None) -> None:
         """Take over start and stop time [s]; accuracy is the affair of the model's own parameters."""
-        self._run.plan(start_time, stop_time)
+        self._instance.setup_experiment(start_time, stop_time)
 
     @guarded
     def exit_initialization_mode(self) -> None:
         """Make the model from the values set; refuses impossible ones, all problems in one sentence."""
-        self._run.begin()
+        self._instance.exit_initialization()
 
     @guarded
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance the model by `step_size` [s]."""
-        self._run.step(current_time, step_size)
+        self._instance.do_step(current_time, step_size)
         return True
 
     @guarded
     def get_real(self, vrs: Sequence[int]) -> list[Value]:
         """Real values by reference."""
-        return self._run.read("real", vrs)
+        return self._instance.get_values("real", vrs)
 
     @guarded
     def get_integer(self, vrs: Sequence[int]) -> list[Value]:
         """Integer values by reference."""
-        return self._run.read("integer", vrs)
+        return self._instance.get_values("integer", vrs)
 
     @guarded
     def get_boolean(self, vrs: Sequence[int]) -> list[Value]:
         """Boolean values by reference."""
-        return self._run.read("boolean", vrs)
+        return self._instance.get_values("boolean", vrs)
 
     @guarded
     def get_string(self, vrs: Sequence[int]) -> list[Value]:
         """Strings by reference."""
-        return self._run.read("string", vrs)
+        return self._instance.get_values("string", vrs)
 
     @guarded
     def set_real(self, vrs: Sequence[int], values: Sequence[float]) -> None:
         """Set Real values by reference, all or none."""
-        self._run.write("real", vrs, values)
+        self._instance.set_values("real", vrs, values)
 
     @guarded
     def set_integer(self, vrs: Sequence[int], values: Sequence[int]) -> None:
         """Set Integer values by reference, all or none."""
-        self._run.write("integer", vrs, values)
+        self._instance.set_values("integer", vrs, values)
 
     @guarded
     def set_boolean(self, vrs: Sequence[int], values: Sequence[bool]) -> None:
         """Set Boolean values by reference, all or none."""
-        self._run.write("boolean", vrs, values)
+        self._instance.set_values("boolean", vrs, values)
 
     @guarded
     def set_string(self, vrs: Sequence[int], values: Sequence[str]) -> None:
         """Set strings by reference, all or none."""
-        self._run.write("string", vrs, values)
+        self._instance.set_values("string", vrs, values)
 
     @guarded
     def _get_fmu_state(self) -> bytes:
-        return self._run.save(self._identity())
+        return self._instance.save_state(self._identity())
 
     @guarded
     def _set_fmu_state(self, state: bytes) -> None:
-        self._run.restore(state, self._identity())
+        self._instance.restore_state(state, self._identity())
 
     # These two are called on the class, where there is no instance to keep alive after an
     # exception (see `binary`); so states are bytes from the outset, checked when set.
@@ -135,10 +135,10 @@ class Face(Fmi2Slave):
     def fail(self, error: BaseException) -> NoReturn:
         """Report an error, bar further steps and outputs, and raise it as a `SlaveError`."""
         what = error_reporting.sentence(error)
-        text = f"{self.interface.name} '{self.instance_name}' at t = {self._run.time:.9g} s: {what}"
-        if self._run.failure is None:
+        text = f"{self.interface.name} '{self.instance_name}' at t = {self._instance.time:.9g} s: {what}"
+        if self._instance.failure is None:
             error_reporting.report(text)
-            self._run.failure = what
+            self._instance.failure = what
         keep_alive(type(self), self, self.log_queue)
         raise error_reporting.SlaveError(text) from None
 

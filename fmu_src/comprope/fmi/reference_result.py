@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from .instance import Run
+from .instance import Instance
 from .model_interface import ModelInterface
 
 IN, OUT = "resources/reference_in.csv", "resources/reference_out.csv"
@@ -11,20 +11,20 @@ DURATION, EVERY = 4.0, 0.05  # s, of the run and from one row of results to the 
 
 def reference(interface: ModelInterface) -> dict[str, bytes]:
     """Files by their path in the FMU: the real outputs every 50 ms, and inputs that move for every communication step."""
-    run, places = Run(interface), {one.name: place for place, one in enumerate(interface.variables)}
+    instance, places = Instance(interface), {one.name: place for place, one in enumerate(interface.variables)}
     moved = list(interface.motion(0.0))
     outputs = [one.name for one in interface.of_role("output") if one.kind == "real"]
     given, found, dt = [], [], interface.step_size
     for count in range(round(DURATION / dt) + 1):
         time = count * dt
         values = list(interface.motion(time).values())
-        run.write("real", [places[name] for name in moved], values)
+        instance.set_values("real", [places[name] for name in moved], values)
         if count == 0:
-            run.begin()
+            instance.exit_initialization()
         given.append([time, *values])
         if count % round(EVERY / dt) == 0:
-            found.append([time, *run.read("real", [places[name] for name in outputs])])
-        run.step(time, dt)
+            found.append([time, *instance.get_values("real", [places[name] for name in outputs])])
+        instance.do_step(time, dt)
     # Accelerations are second differences of positions, so inputs keep every digit. Nine are enough for results: what
     # other systems' sines and cosines may change lies behind them.
     inputs = {IN: _table(moved, given, ".17g")} if moved else {}

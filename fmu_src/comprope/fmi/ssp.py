@@ -5,7 +5,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..atomic_files import whole_file
+from ..atomic_files import atomic_write
 from .model_interface import ModelInterface, Value, Variable
 from .package import zipped
 
@@ -47,7 +47,7 @@ def write_ssp(path: Path, name: str, parts: Iterable[Part], wires: Iterable[Wire
     """Write the archive, whole or not at all; the same arguments give the same bytes. Returns its path."""
     chosen = list(parts)
     content = {f"resources/{part.fmu.name}": part.fmu.read_bytes() for part in chosen}
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_bytes(zipped(content | {"SystemStructure.ssd": structure(name, chosen, wires)}))
     return path
 

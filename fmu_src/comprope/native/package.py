@@ -8,7 +8,7 @@ import uuid
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ..atomic_files import whole_file
+from ..atomic_files import atomic_write
 from ..errors import InputError
 from ..fmi.documentation import page
 from ..fmi.model_interface import ModelInterface
@@ -50,7 +50,7 @@ def build_native(
     binaries = linker.binaries(interface.name, compiled, {"kernels.h": header, "model.c": model})
     for one in standards:
         own = _own(one, interface, origin, identity[one], linker.systems(chosen)) | one.placed(interface.name, binaries)
-        with whole_file(out / _file_name(interface, one)) as path:
+        with atomic_write(out / _file_name(interface, one)) as path:
             path.write_bytes(zipped(shared | own))
     return [out / _file_name(interface, one) for one in standards]
 

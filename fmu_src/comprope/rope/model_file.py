@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ..atomic_files import text_of, whole_file
+from ..atomic_files import atomic_write, read_text_file
 from ..errors import InputError
 from ..validation_messages import problems
 from .effects import RopeModel, model_type, user_effects
@@ -43,7 +43,7 @@ def dump(model: RopeModel, path: str | Path, comment: str = "") -> None:
     blocks = [tomli_w.dumps(table)] + [f"\n[[sensors]]\n{tomli_w.dumps(sensor)}" for sensor in sensors]
     printable = ("".join(letter if letter.isprintable() else " " for letter in line) for line in comment.splitlines())
     heading = "".join(f"# {line}".rstrip() + "\n" for line in printable)
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text(heading + "".join(blocks), encoding="utf-8", newline="\n")
 
 
@@ -128,7 +128,7 @@ def _seen_from(folder: Path, file: str) -> str:
 def read_toml(path: str | Path) -> dict[str, Any]:
     """The tables of a TOML file; raises `InputError` if it is absent, unreadable, not UTF-8 or not TOML."""
     try:
-        return tomllib.loads(text_of(path))
+        return tomllib.loads(read_text_file(path))
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     except RecursionError:

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from comprope.errors import InputError
-from comprope.fmi.instance import Run
-from comprope.fmi.model_interface import Engine, Kind, ModelInterface, Variable
+from comprope.fmi.instance import Instance
+from comprope.fmi.model_interface import Kind, ModelInterface, Simulator, Variable
 
 
 class DirectParticipant:
@@ -15,39 +15,39 @@ class DirectParticipant:
     def __init__(self, name: str, interface: ModelInterface, parameters: Mapping[str, Any]) -> None:
         """Raises `InputError` for parameters that the model does not have or cannot take."""
         self.name = name
-        self._run = Run(interface)
+        self._instance = Instance(interface)
         self._references = {one.name: (reference, one) for reference, one in enumerate(interface.variables)}
         self._outputs = [one.name for one in interface.of_role("output")]
         self.set(parameters)
 
     @property
-    def engine(self) -> Engine:
+    def simulator(self) -> Simulator:
         """What runs the model now; another one once parameters have changed before the first step."""
-        return self._run.engine
+        return self._instance.simulator
 
     def prepare(self, start: float) -> None:
         """See `Participant`."""
-        self._run.plan(start, None)
+        self._instance.setup_experiment(start, None)
 
     def set(self, values: Mapping[str, Any]) -> None:
         """See `Participant`."""
         for kind, names in self._by_kind(list(values)).items():
-            self._run.write(kind, [self._references[name][0] for name in names], [values[name] for name in names])
+            self._instance.set_values(kind, [self._references[name][0] for name in names], [values[name] for name in names])
 
     def outputs(self) -> dict[str, Any]:
         """See `Participant`."""
         values: dict[str, Any] = {}
         for kind, names in self._by_kind(self._outputs).items():
-            values |= zip(names, self._run.read(kind, [self._references[name][0] for name in names]), strict=True)
+            values |= zip(names, self._instance.get_values(kind, [self._references[name][0] for name in names]), strict=True)
         return values
 
     def begin(self) -> None:
         """See `Participant`."""
-        self._run.begin()
+        self._instance.exit_initialization()
 
     def step(self, time: float, dt: float) -> None:
         """See `Participant`."""
-        self._run.step(time, dt)
+        self._instance.do_step(time, dt)
 
     def _by_kind(self, names: list[str]) -> dict[Kind, list[str]]:
         groups: dict[Kind, list[str]] = defaultdict(list)

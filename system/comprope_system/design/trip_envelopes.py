@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comprope.drive.parameters import Profile
-from comprope.drive.reference_trajectory import Course
-from comprope.drive.s_curve import plan
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
+from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import validated, with_changes
 
@@ -38,9 +38,9 @@ def pairs(heights: Floats) -> list[tuple[float, float]]:
     return sorted(found)
 
 
-def course(profile: Profile, trip: tuple[float, float]) -> Course:
+def course(profile: Profile, trip: tuple[float, float]) -> ReferenceTrajectory:
     """The jerk-limited course of a trip."""
-    return Course(plan(profile, *trip, START))
+    return ReferenceTrajectory(plan_s_curve(profile, *trip, START))
 
 
 def rope_of_mass(model: RopeModel, mass: float) -> RopeModel:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from comprope.atomic_files import require_writable, whole_file
+from comprope.atomic_files import atomic_write, require_writable
 from comprope.drive.parameters import Profile
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
@@ -169,7 +169,7 @@ def _sensors(model: RopeModel, profile: Profile, request: Request, sway: Sway | 
 def _write(request: Request, result: Mapping[str, Any], model: RopeModel, chosen: RopeModel, profile: Profile) -> None:
     for path in (request.out / RESULT, request.json):
         if path:
-            with whole_file(path) as temporary:
+            with atomic_write(path) as temporary:
                 temporary.write_text(json.dumps(result), encoding="utf-8")
     sections = report.sections(result, model, chosen, profile)
     save_pictures(request.out, sections)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from comprope.atomic_files import require_writable, whole_file
+from comprope.atomic_files import atomic_write, require_writable
 from comprope.errors import InputError
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.parameters import Base
@@ -46,10 +46,10 @@ def run(request: Request) -> Modes:
     found = modes(model, request.car, request.count)
     sys.stdout.write("".join(f"{line}\n" for line in _lines(model, found)))
     if request.json:
-        with whole_file(request.json) as temporary:
+        with atomic_write(request.json) as temporary:
             temporary.write_text(json.dumps(as_json(model, found)), encoding="utf-8")
     if request.plot:
-        with whole_file(request.plot) as temporary:
+        with atomic_write(request.plot) as temporary:
             draw(found).savefig(temporary, dpi=150)
     return found
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from comprope.drive.s_curve import Trip
+from comprope.drive.trajectory.s_curve import SCurve
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, load, validated, with_changes
 from comprope.rope.parameters import Base
@@ -41,7 +41,7 @@ def limits(name: str, distance: float) -> dict[str, float]:
     return {"distance": distance, "speed": speed, "acceleration": acceleration, "jerk": jerk}
 
 
-def up(name: str, distance: float) -> Trip:
+def up(name: str, distance: float) -> SCurve:
     """That trip."""
     return trip_of(**limits(name, distance))
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comprope.drive.parameters import Profile
-from comprope.drive.s_curve import plan
+from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, validated
 from comprope.rope.simulator.rope import CompensationRope
@@ -32,7 +32,7 @@ def calibrated(model: RopeModel) -> Rope:
     bending = rope.bending_length
     heights = np.linspace(NEAR, FAR, PLACES) * bending - model.shaft.pit
     low = _low(model, LEAST + 2.0 * FAR * bending)
-    trip = plan(LIMITS, 0.1 * low.shaft.height, 0.9 * low.shaft.height, 0.5)
+    trip = plan_s_curve(LIMITS, 0.1 * low.shaft.height, 0.9 * low.shaft.height, 0.5)
 
     def look(full: CompensationRope) -> Floats:
         return np.array([side_shape(full, side, heights) for side in ("car", "counterweight")])

@@ -1,4 +1,4 @@
-"""A drive's course at many times at once: the same as `Course.at`, for the search, which asks for thousands."""
+"""A drive's course at many times at once: the same as `ReferenceTrajectory.at`, for the search, which asks for thousands."""
 
 from dataclasses import dataclass
 from math import factorial
@@ -6,10 +6,10 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.drive.free_curve import CurveTrip
 from comprope.drive.parameters import PARTS
-from comprope.drive.reference_trajectory import Course
-from comprope.drive.s_curve import Trip
+from comprope.drive.trajectory.free_curve import FreeCurve
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
+from comprope.drive.trajectory.s_curve import SCurve
 
 Floats = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ class Moves:
         return np.asarray(self.dt * np.arange(len(self.position)), float)
 
 
-def moves(course: Course, until: float, dt: float) -> Moves:
+def moves(course: ReferenceTrajectory, until: float, dt: float) -> Moves:
     """The course from time zero to `until` [s] or a little longer."""
     time = np.asarray(dt * np.arange(int(np.ceil(until / dt)) + 1), float)
     total = np.zeros((3, len(time)))
@@ -41,9 +41,9 @@ def moves(course: Course, until: float, dt: float) -> Moves:
     return Moves(dt, np.asarray(course.origin + way, float), total[1], total[2])
 
 
-def _smoothed(course: Course, time: Floats) -> Floats:
+def _smoothed(course: ReferenceTrajectory, time: Floats) -> Floats:
     """Way, speed and acceleration (3, n) of the trip after the moving average."""
-    values = _curve if isinstance(course.trip, CurveTrip) else _trip
+    values = _curve if isinstance(course.trip, FreeCurve) else _trip
     gone, way, speed, acceleration = values(course.trip, time)  # type: ignore[arg-type]
     S = course.smoothing
     if S == 0.0:
@@ -52,7 +52,7 @@ def _smoothed(course: Course, time: Floats) -> Floats:
     return np.array([gone - before, way - way0, speed - speed0]) / S
 
 
-def _trip(trip: Trip, time: Floats) -> Floats:
+def _trip(trip: SCurve, time: Floats) -> Floats:
     """The way's integral, way, speed and acceleration (4, n); the second half mirrors the first."""
     distance, half = trip.destination - trip.origin, 0.5 * trip.duration
     elapsed = np.clip(time - trip.start_time, 0.0, trip.duration)
@@ -66,7 +66,7 @@ def _trip(trip: Trip, time: Floats) -> Floats:
     ])  # fmt: skip
 
 
-def _begun(trip: Trip, s: Floats, order: int) -> Floats:
+def _begun(trip: SCurve, s: Floats, order: int) -> Floats:
     """The jerk's integral of an order up to times `s` [s] in the first half: j, -j and again -j, j at their times."""
     total = s**order
     for shift, sign in ((trip.ramp, -1.0), (trip.ramp + trip.plateau, -1.0), (2.0 * trip.ramp + trip.plateau, 1.0)):
@@ -74,7 +74,7 @@ def _begun(trip: Trip, s: Floats, order: int) -> Floats:
     return np.asarray(trip.jerk / factorial(order) * total)
 
 
-def _curve(trip: CurveTrip, time: Floats) -> Floats:
+def _curve(trip: FreeCurve, time: Floats) -> Floats:
     """The same for a trip of a free shape."""
     dt, elapsed = trip.duration / PARTS, np.clip(time - trip.start_time, 0.0, trip.duration)
     k = np.minimum((elapsed / dt).astype(int), PARTS - 1)

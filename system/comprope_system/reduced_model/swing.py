@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.drive.reference_trajectory import Course
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 from comprope.rope.effects import RopeModel
 from comprope.rope.simulator.rope import CompensationRope
 
@@ -85,7 +85,7 @@ def displacements(case: Case, moved: Moves) -> dict[str, tuple[Floats, Floats]]:
     return found
 
 
-def small_swing(case: Case, course: Course, watched: float, dt: float = DT) -> Swing:
+def small_swing(case: Case, course: ReferenceTrajectory, watched: float, dt: float = DT) -> Swing:
     """The swing on a course and `watched` [s] after it, on the small rope."""
     moved = moves(course, course.end_time + watched, dt)
     sides = displacements(case, moved).values()
@@ -111,7 +111,7 @@ def larger(found: list[Swing]) -> Swing:
     return Swing(max(one.during for one in found), max(one.after for one in found))
 
 
-def full_swing(model: RopeModel, case: Case, course: Course, watched: float) -> tuple[Swing, dict[str, Floats]]:
+def full_swing(model: RopeModel, case: Case, course: ReferenceTrajectory, watched: float) -> tuple[Swing, dict[str, Floats]]:
     """The swing on the full model, ends carried along the course exactly; and time [s] and departures by side."""
 
     def look(rope: CompensationRope) -> Floats:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from comprope.atomic_files import whole_file
+from comprope.atomic_files import atomic_write
 
 
 def plain(value: Any) -> Any:
@@ -23,5 +23,5 @@ def plain(value: Any) -> Any:
 
 def save_json(path: Path, value: Any) -> None:
     """Write a result, whole or not at all."""
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text(json.dumps(plain(value), indent=1) + "\n", encoding="utf-8")

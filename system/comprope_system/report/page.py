@@ -13,7 +13,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
 
-from comprope.atomic_files import whole_file
+from comprope.atomic_files import atomic_write
 
 DPI = 130
 NUMBER = re.compile(r"[-−+]?[\d.][\d.e+/-]*( ± [\d.e+-]+)?( [^ \d]+)?")  # or two, with a deviation, with a unit
@@ -94,7 +94,7 @@ def render(template: str, title: str, lead: str = "", **values: Any) -> str:
 
 def save_page(path: str | Path, title: str, lead: str, sections: Sequence[Section]) -> None:
     """Write a page of sections, whole or not at all."""
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text(render("sections.html", title, lead, sections=sections), encoding="utf-8")
 
 
@@ -103,7 +103,7 @@ def save_pictures(folder: Path, sections: Sequence[Section]) -> list[Path]:
     paths = []
     for picture in (block for section in sections for block in section.blocks if isinstance(block, Picture)):
         paths.append(folder / f"{picture.name}.png")
-        with whole_file(paths[-1]) as temporary:
+        with atomic_write(paths[-1]) as temporary:
             temporary.write_bytes(picture.png)
     return paths
 

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from comprope.atomic_files import whole_file
+from comprope.atomic_files import atomic_write
 
 from .measured_run import Channel, Run
 from .trip_simulation import Simulated
@@ -18,7 +18,7 @@ SIMULATED, MEASURED, SECOND = "#0b4f8a", "#e8893b", "#7a8794"
 def save_trip(path: Path, simulated: Simulated, measured: Run | None = None) -> None:
     """Draw a trip into a file, whole or not at all; its suffix tells the format."""
     figure = draw_trip(simulated, measured)
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         figure.savefig(temporary, dpi=150)
 
 

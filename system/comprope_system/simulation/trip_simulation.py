@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from comprope.atomic_files import whole_file
+from comprope.atomic_files import atomic_write
 from comprope.errors import InputError
 
 from ..cosim import Sample, co_simulate
@@ -30,7 +30,7 @@ class Simulated:
 
     def to_csv(self, path: str | Path) -> None:
         """Write the table, whole or not at all; missing values are empty cells."""
-        with whole_file(path) as temporary:
+        with atomic_write(path) as temporary:
             self.table.to_csv(temporary, index=False, float_format="%.9g", lineterminator="\n")
 
 

@@ -13,10 +13,10 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from comprope.atomic_files import require_writable
 from comprope.drive.parameters import Drive
-from comprope.drive.reference_trajectory import first_course
+from comprope.drive.trajectory.reference_trajectory import first_trajectory
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
-from comprope.rope.simulator.cosimulation import RopeEngine
+from comprope.rope.simulator.cosimulation import RopeSimulator
 from comprope.rope.simulator.rope import CompensationRope
 
 from ..cosim.in_process_participant import DirectParticipant
@@ -96,9 +96,9 @@ def _both(bar: Report, camera: Camera | None) -> Report:
 def _rope(lift: Lift) -> CompensationRope:
     """The rope of a lift that is stepped in this process."""
     rope = lift.participants[-1]
-    if not isinstance(rope, DirectParticipant) or not isinstance(rope.engine, RopeEngine):
+    if not isinstance(rope, DirectParticipant) or not isinstance(rope.simulator, RopeSimulator):
         raise TypeError("an FMU does not show the rope's shape")
-    return rope.engine.rope
+    return rope.simulator.rope
 
 
 def _require_files(request: Request) -> None:
@@ -128,7 +128,7 @@ def _lift(
     if measured:
         return prescribed(model, measured.trips, direct), measured.end
     drive = _drive(request, model, drive_changes)
-    return driven(model, drive, direct), first_course(drive).end_time + SETTLE
+    return driven(model, drive, direct), first_trajectory(drive).end_time + SETTLE
 
 
 def _drive(request: Request, model: RopeModel, changes: dict[str, dict[str, Any]]) -> Drive:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comprope.drive.parameters import Drive
-from comprope.drive.reference_trajectory import Course
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 from comprope.rope.effects import RopeModel
 from comprope.rope.parameters import Sensor
 
@@ -53,7 +53,7 @@ def installed(model: RopeModel, case: Case, drive: Drive, way: Way, watched: flo
     )
     trip = {"start_position": way.origin, "destination": way.destination, "start_time": BEGIN}
     set_out = drive.model_copy(update={"trip": drive.trip.model_copy(update=trip)})
-    course: Course = course_of(set_out, way, BEGIN)
+    course: ReferenceTrajectory = course_of(set_out, way, BEGIN)
     times, cars, seen = [], [], []
     with driven(model.model_copy(update={"sensors": sensors}), set_out, direct) as lift:
         for sample in co_simulate(lift.participants, lift.connections, course.end_time + watched, STEP):

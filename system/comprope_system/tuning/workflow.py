@@ -11,7 +11,7 @@ from typing import Any
 
 import tomli_w
 
-from comprope.atomic_files import require_writable, whole_file
+from comprope.atomic_files import atomic_write, require_writable
 from comprope.drive.parameters import Drive
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
@@ -149,7 +149,7 @@ def _write(request: Request, result: Mapping[str, Any], tasks: Sequence[Task], c
     models = {f"{car:g}": as_json(rope_model(tasks[0].case(), car)) for car in _positions(tasks[0].model.shaft.height)}
     for path, content in ((out / RESULT, result), (out / MODELS, models), (request.json, result)):
         if path:
-            with whole_file(path) as temporary:
+            with atomic_write(path) as temporary:
                 temporary.write_text(json.dumps(content), encoding="utf-8")
     sections = report.sections(result)
     save_pictures(out, sections)
@@ -168,7 +168,7 @@ def save_drive(path: Path, drive: Drive, heading: str) -> None:
     table = drive.model_dump(include=CHOSEN)
     if not drive.curve.used:
         del table["curve"]
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text(f"# {heading}\n\n{tomli_w.dumps(table)}", encoding="utf-8", newline="\n")
 
 

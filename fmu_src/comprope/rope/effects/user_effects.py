@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ... import consent
-from ...atomic_files import text_of
+from ...atomic_files import read_text_file
 from ...errors import CompropeError, InputError
 from ...quantities import Quantity, quantities
 from ..runtime import jit
@@ -44,7 +44,7 @@ def read(path: Path, *, allow_code: bool = False) -> None:
     Raises `InputError` without consent, which is `allow_code` or the environment variable of `consent`, and for a file that
     cannot be read, fails, or has changed since it was run.
     """
-    text = text_of(path)
+    text = read_text_file(path)
     if _same(text) is None and not (allow_code or consent.given()):
         allow = f"comprope --allow-code ..., build_fmu.py --allow-code, or {consent.VARIABLE}=1"
         raise InputError(f"{path} would be run as a program; read it, then allow it: {allow}")

@@ -71,13 +71,13 @@ def _ends_rising(height: float, time: float) -> dict[str, float]:
 
 def create(
     parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float, own_effects: tuple[str, ...] = ()
-) -> "RopeEngine":
+) -> "RopeSimulator":
     """A rope at rest at `start_time` [s] from values by name, as declared by `interface`.
 
     `own_effects` are the model's files. Raises InputError with all problems of the values, SimulationError when no
     shape at rest is found.
     """
-    return RopeEngine(model_of(parameters, own_effects), parameters, inputs, start_time)
+    return RopeSimulator(model_of(parameters, own_effects), parameters, inputs, start_time)
 
 
 def model_of(parameters: Mapping[str, Any], own_effects: tuple[str, ...] = ()) -> Base:
@@ -111,7 +111,7 @@ def _sensor(k: int, parameters: Mapping[str, Any]) -> dict[str, Any]:
     return {"name": f"sensor{k + 1}", "side": side, "height": parameters[f"{one}.height"]}
 
 
-class RopeEngine:
+class RopeSimulator:
     """One rope that follows its inputs."""
 
     def __init__(self, model: Base, options: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> None:

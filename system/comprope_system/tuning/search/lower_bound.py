@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 from comprope.drive.parameters import Drive
-from comprope.drive.reference_trajectory import Course
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 
 from ...reduced_model.sampled_motion import moves
 from .profile_families import Way
@@ -21,7 +21,7 @@ PARTS = 40  # of half the travel time
 LONGEST = 6.0  # of the shortest time: beyond that nothing is looked for
 
 
-def spectrum(course: Course, period: float) -> float:
+def spectrum(course: ReferenceTrajectory, period: float) -> float:
     """|V(w)| over the distance of a course, 1 for a blow, at the angular frequency of `period` [s]."""
     moved = moves(course, course.end_time, 0.005)
     distance = abs(course.destination - course.origin)
@@ -46,7 +46,7 @@ def least_spectrum(drive: Drive, way: Way, time: float, period: float) -> float:
     return float(found.fun) if found.status == 0 else np.inf
 
 
-def least_time(drive: Drive, way: Way, course: Course, period: float, share: float) -> float:
+def least_time(drive: Drive, way: Way, course: ReferenceTrajectory, period: float, share: float) -> float:
     """The shortest time [s] of any trip that leaves at most `share` of what `course` leaves; infinite if none is found."""
     allowed = share * spectrum(course, period)
     low, high = course.duration * 0.98, course.duration * LONGEST

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from comprope.drive.parameters import SHORTEST, Drive, Profile, Shaper
-from comprope.drive.reference_trajectory import Course, course
-from comprope.drive.s_curve import plan
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory, reference_trajectory
+from comprope.drive.trajectory.s_curve import plan_s_curve
 
 START = 0.1  # s at rest before a trip in the search
 LEAST = 0.05  # of the largest acceleration: slower trips are not looked for
@@ -56,9 +56,9 @@ def drive_for(drive: Drive, kind: str, shares: Mapping[str, float], periods: tup
     return drive.model_copy(update={"profile": profile, "shaper": shaper})
 
 
-def course_of(drive: Drive, way: Way, start: float = START) -> Course:
+def course_of(drive: Drive, way: Way, start: float = START) -> ReferenceTrajectory:
     """The course of a drive along a way."""
-    return course(drive, plan(drive.profile, way.origin, way.destination, start))
+    return reference_trajectory(drive, plan_s_curve(drive.profile, way.origin, way.destination, start))
 
 
 def drive_in_time(drive: Drive, kind: str, shares: Mapping[str, float], ways: list[Way], time: float) -> Drive | None:

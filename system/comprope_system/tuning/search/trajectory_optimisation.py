@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from comprope.drive.free_curve import CurveTrip
 from comprope.drive.parameters import PARTS, Curve, Drive
-from comprope.drive.reference_trajectory import Course
+from comprope.drive.trajectory.free_curve import FreeCurve
+from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 
 from ...reduced_model.sampled_motion import moves
 from ...reduced_model.swing import DT, PLACES, Case, Swing, displacements, larger, spread
@@ -58,7 +58,14 @@ class Limits:
 
 
 def free_drive(
-    drive: Drive, way: Way, time: float, cases: Sequence[Case], watched: float, goal: Goal, first: Course, smoothing: float = 0.0
+    drive: Drive,
+    way: Way,
+    time: float,
+    cases: Sequence[Case],
+    watched: float,
+    goal: Goal,
+    first: ReferenceTrajectory,
+    smoothing: float = 0.0,
 ) -> Drive | None:
     """The drive whose curve swings the rope least on a way that takes `time` [s], begun at the accelerations of `first`.
 
@@ -96,8 +103,8 @@ class _Seen:
 
     def departures(self, a: Floats) -> tuple[Floats, Floats]:
         """Times (n,) and departures (cases and sides, n, places) [m], zero near the sheave."""
-        trip = CurveTrip(START, self.way.origin, self.way.destination, self.time - self.smoothing, tuple(a / np.abs(a).max()))
-        course = Course(trip, self.smoothing)
+        trip = FreeCurve(START, self.way.origin, self.way.destination, self.time - self.smoothing, tuple(a / np.abs(a).max()))
+        course = ReferenceTrajectory(trip, self.smoothing)
         moved, found = moves(course, course.end_time + self.watched, DT), []
         for case in self.cases:
             for length, departure in displacements(case, moved).values():
@@ -198,7 +205,7 @@ def _as_drive(drive: Drive, way: Way, time: float, smoothing: float, a: Floats) 
     made = drive.model_copy(update={"curve": curve})
     trip = course_of(made, way).trip
     needed = (
-        np.abs(np.array(trip.knots[0])).max() * (trip.duration / (time - smoothing)) ** 2 if isinstance(trip, CurveTrip) else 0.0
+        np.abs(np.array(trip.knots[0])).max() * (trip.duration / (time - smoothing)) ** 2 if isinstance(trip, FreeCurve) else 0.0
     )
     own = drive.profile
     profile = own.model_copy(update={"acceleration": min(float(needed), own.acceleration), "smoothing": smoothing})

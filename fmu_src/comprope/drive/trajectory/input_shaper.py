@@ -14,7 +14,7 @@ shares that sum to one: no limit of speed, acceleration or jerk is exceeded by s
 
 from math import exp, pi, sqrt
 
-from .parameters import Shaper
+from ..parameters import Shaper
 
 Impulses = tuple[tuple[float, float], ...]  # delays [s] and shares
 NONE: Impulses = ((0.0, 1.0),)

@@ -9,17 +9,17 @@ Neither a moving average nor an input shaper lets a quantity pass a limit that t
 
 from dataclasses import dataclass
 
-from .free_curve import CurveTrip, curved
+from ..parameters import Drive
+from .free_curve import FreeCurve, curved
 from .input_shaper import NONE, Impulses, impulses
-from .parameters import Drive
-from .s_curve import Motion, Trip, plan
+from .s_curve import SCurve, TrajectoryPoint, plan_s_curve
 
 
 @dataclass(frozen=True)
-class Course:
+class ReferenceTrajectory:
     """A trip passed through a moving average of `smoothing` [s] and through a shaper's `impulses` (delay [s], share)."""
 
-    trip: Trip | CurveTrip
+    trip: SCurve | FreeCurve
     smoothing: float = 0.0
     impulses: Impulses = NONE
 
@@ -48,27 +48,27 @@ class Course:
         """When the reference is at rest at the destination [s]."""
         return self.trip.start_time + self.duration
 
-    def at(self, time: float) -> Motion:
+    def at(self, time: float) -> TrajectoryPoint:
         """The reference at `time` [s]; at rest before the trip begins and after it ends."""
         if time >= self.end_time:
-            return Motion(self.destination)
+            return TrajectoryPoint(self.destination)
         if len(self.impulses) == 1:
             return self._smoothed(time)
         moved = [(share, self._smoothed(time - delay)) for delay, share in self.impulses]
-        return Motion(
+        return TrajectoryPoint(
             self.origin + sum(share * (one.position - self.origin) for share, one in moved),
             sum(share * one.velocity for share, one in moved),
             sum(share * one.acceleration for share, one in moved),
             sum(share * one.jerk for share, one in moved),
         )
 
-    def _smoothed(self, time: float) -> Motion:
+    def _smoothed(self, time: float) -> TrajectoryPoint:
         S = self.smoothing
         now = self.trip.at(time)
         if S == 0.0:
             return now
         then = self.trip.at(time - S)
-        return Motion(
+        return TrajectoryPoint(
             self.origin + (self.trip.gone(time) - self.trip.gone(time - S)) / S,
             (now.position - then.position) / S,
             (now.velocity - then.velocity) / S,
@@ -76,15 +76,17 @@ class Course:
         )
 
 
-def course(drive: Drive, trip: Trip) -> Course:
+def reference_trajectory(drive: Drive, trip: SCurve) -> ReferenceTrajectory:
     """The course of a planned trip with the drive's curve, smoothing and shaper; a trip of no way has none of these."""
     origin, destination = trip.origin, trip.destination
     if origin == destination:
-        return Course(trip)
+        return ReferenceTrajectory(trip)
     chosen = curved(drive.curve, drive.profile, origin, destination, trip.start_time) if drive.curve.used else trip
-    return Course(chosen, drive.profile.smoothing, impulses(drive.shaper, (origin, destination), drive.shaft.height))
+    return ReferenceTrajectory(chosen, drive.profile.smoothing, impulses(drive.shaper, (origin, destination), drive.shaft.height))
 
 
-def first_course(drive: Drive) -> Course:
+def first_trajectory(drive: Drive) -> ReferenceTrajectory:
     """The course of the drive's first trip."""
-    return course(drive, plan(drive.profile, drive.trip.start_position, drive.trip.destination, drive.trip.start_time))
+    return reference_trajectory(
+        drive, plan_s_curve(drive.profile, drive.trip.start_position, drive.trip.destination, drive.trip.start_time)
+    )

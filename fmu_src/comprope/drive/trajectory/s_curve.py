@@ -8,11 +8,11 @@ and a trip ends on its destination to the last bit.
 
 from dataclasses import dataclass
 
-from .parameters import Profile
+from ..parameters import Profile
 
 
 @dataclass(frozen=True)
-class Motion:
+class TrajectoryPoint:
     """Where the reference is: position [m], velocity [m/s], acceleration [m/s2] and jerk [m/s3], up positive."""
 
     position: float
@@ -22,7 +22,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class Trip:
+class SCurve:
     """One trip: begins at `start_time` [s] at `origin` [m], ends at `destination` [m].
 
     `jerk` [m/s3] is positive for a trip up; `ramp`, `plateau`, `cruise` [s] are the phases' durations.
@@ -46,18 +46,18 @@ class Trip:
         """When the reference is at rest at the destination [s]."""
         return self.start_time + self.duration
 
-    def at(self, time: float) -> Motion:
+    def at(self, time: float) -> TrajectoryPoint:
         """The reference at `time` [s]; at rest before the trip begins and after it ends."""
         elapsed, left = time - self.start_time, self.end_time - time
         if elapsed <= 0.0 and left > 0.0:
-            return Motion(self.origin)
+            return TrajectoryPoint(self.origin)
         if left <= 0.0:
-            return Motion(self.destination)
+            return TrajectoryPoint(self.destination)
         if elapsed <= left:
             way, velocity, acceleration, jerk = self._begun(elapsed)
-            return Motion(self.origin + way, velocity, acceleration, jerk)
+            return TrajectoryPoint(self.origin + way, velocity, acceleration, jerk)
         way, velocity, acceleration, jerk = self._begun(left)
-        return Motion(self.destination - way, velocity, -acceleration, jerk)
+        return TrajectoryPoint(self.destination - way, velocity, -acceleration, jerk)
 
     def gone(self, time: float) -> float:
         """The integral of the way from the origin over time, up to `time` [m s]: what a moving average needs."""
@@ -96,7 +96,7 @@ class Trip:
         return way, v, 0.0, 0.0
 
 
-def plan(profile: Profile, origin: float, destination: float, start_time: float) -> Trip:
+def plan_s_curve(profile: Profile, origin: float, destination: float, start_time: float) -> SCurve:
     """The fastest trip within the limits of `profile` from rest at `origin` [m] to rest at `destination` [m].
 
     A trip that cannot reach the speed has no cruise; one that cannot reach the acceleration has no plateau:
@@ -107,7 +107,7 @@ def plan(profile: Profile, origin: float, destination: float, start_time: float)
     distance = abs(destination - origin)
     ramp, plateau, cruise = _phases(distance, profile.speed, profile.acceleration, profile.jerk)
     jerk = profile.jerk if destination >= origin else -profile.jerk
-    return Trip(start_time, origin, destination, jerk, ramp, plateau, cruise)
+    return SCurve(start_time, origin, destination, jerk, ramp, plateau, cruise)
 
 
 def _phases(distance: float, speed: float, acceleration: float, jerk: float) -> tuple[float, float, float]:

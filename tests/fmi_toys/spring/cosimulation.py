@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..errors import InputError, SimulationError
-from ..fmi.engine import ModelInterface, Variable
+from ..fmi.model_interface import ModelInterface, Variable
 from .helper import WORD
 
 _STATE = struct.Struct("<ddq")

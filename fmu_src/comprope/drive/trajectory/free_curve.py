@@ -12,14 +12,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
 
-from .parameters import PARTS, Curve, Profile
-from .s_curve import Motion
+from ..parameters import PARTS, Curve, Profile
+from .s_curve import TrajectoryPoint
 
 Shape = tuple[float, ...]
 
 
 @dataclass(frozen=True)
-class CurveTrip:
+class FreeCurve:
     """One trip: begins at `start_time` [s] at `origin` [m], takes `duration` [s] to `destination` [m].
 
     `shape` (PARTS + 1,) holds the accelerations over the largest one, at equal parts of the duration.
@@ -49,16 +49,16 @@ class CurveTrip:
         )
         return a, v, x, gone
 
-    def at(self, time: float) -> Motion:
+    def at(self, time: float) -> TrajectoryPoint:
         """The reference at `time` [s]; at rest before the trip begins and after it ends."""
         if time >= self.end_time:
-            return Motion(self.destination)
+            return TrajectoryPoint(self.destination)
         if time <= self.start_time:
-            return Motion(self.origin)
+            return TrajectoryPoint(self.origin)
         k, t, j = self._place(time)
         a, v, x, _ = (values[k] for values in self.knots)
         way = x + v * t + a * t**2 / 2.0 + j * t**3 / 6.0
-        return Motion(self.origin + way, v + a * t + j * t**2 / 2.0, a + j * t, j)
+        return TrajectoryPoint(self.origin + way, v + a * t + j * t**2 / 2.0, a + j * t, j)
 
     def gone(self, time: float) -> float:
         """The integral of the way from the origin over time, up to `time` [m s]."""
@@ -76,10 +76,10 @@ class CurveTrip:
         return k, time - self.start_time - k * dt, (a[k + 1] - a[k]) / dt
 
 
-def curved(curve: Curve, profile: Profile, origin: float, destination: float, start_time: float) -> CurveTrip:
+def curved(curve: Curve, profile: Profile, origin: float, destination: float, start_time: float) -> FreeCurve:
     """The fastest trip of the curve's shape within the limits of `profile`, from rest to rest between two heights [m]."""
     shape, distance = shape_of(curve), abs(destination - origin)
-    return CurveTrip(start_time, origin, destination, _duration(shape, profile, distance), shape)
+    return FreeCurve(start_time, origin, destination, _duration(shape, profile, distance), shape)
 
 
 def shape_of(curve: Curve) -> Shape:

@@ -1,0 +1,1 @@
+"""The position reference of the servo: S-curves, free curves, smoothing and input shaping."""
