@@ -1,11 +1,11 @@
 # %% [markdown]
 # # From measured data to a controller
 #
-# A small elevator whose compensation sheave runs out of true. We do not know that yet. We have a model, three measured
-# trips, and the question why they differ; then we want the car to stop with less swing.
+# A small elevator whose compensation sheave is eccentric, which is unknown at first. Given are a model and three measured
+# trips. The aim is to identify why they differ, and then to reduce the residual vibration of the rope after a trip.
 #
-# Run it cell by cell in an editor that knows `# %%`, or as a whole in an empty folder: `python tutorial.py`. All files are
-# written to that folder. It takes about a minute.
+# Run the file cell by cell in an editor that supports `# %%`, or as a whole in an empty folder: `python tutorial.py`. All
+# files are written to that folder. It takes about a minute.
 
 # %%
 import json
@@ -18,7 +18,7 @@ import pandas as pd
 
 
 def comprope(line: str) -> str:
-    """Run the command `comprope`, as typed in a terminal, and show what it prints."""
+    """Run the command `comprope` as in a terminal, and print its output."""
     done = subprocess.run([sys.executable, "-m", "comprope_system.cli", *line.split()], capture_output=True, text=True, check=False)
     sys.stdout.write(f"$ comprope {line}\n{done.stdout}{done.stderr}\n")
     assert done.returncode == 0, done.stderr
@@ -28,10 +28,10 @@ def comprope(line: str) -> str:
 # %% [markdown]
 # ## 1. The model
 #
-# A model file in TOML: everything in SI units, forces and masses for one rope. The mesh is coarse, to be quick.
+# A model file in TOML: all values in SI units, forces and masses for one rope. The mesh is coarse, to save time.
 
 # %%
-Path("lift.toml").write_text("""\
+Path("elevator.toml").write_text("""\
 [shaft]
 height = 12.0               # m, travel
 pit = 1.2                   # m, sheave axle below the rope's end at the bottom landing
@@ -70,13 +70,13 @@ side = "car"
 height = 0.5
 """)
 Path("drive.toml").write_text("[profile]\nspeed = 1.5\nacceleration = 0.8\njerk = 1.0\n")
-comprope("simulate lift.toml --drive drive.toml --from 1 --to 7 --direct --plot model.png")
+comprope("simulate elevator.toml --drive drive.toml --from 1 --to 7 --direct --plot model.png")
 
 # %% [markdown]
 # ## 2. The measurements
 #
-# You would have CSV files from your elevator: time, the car's height, and what lasers and encoders saw. Here they come from
-# the model itself with something in it that the model file does not know, a bending stiffness that is 5 % off, and noise.
+# In practice these are CSV files with time, car position, and the signals of lasers and encoders. Here they are simulated with
+# an effect that is not in the model file, a bending stiffness that differs by 5 %, and noise.
 
 # %%
 HIDDEN = (
@@ -86,27 +86,27 @@ HIDDEN = (
 NOISE = {"car_position": 5e-4, "cw_low": 3e-4, "car_low": 3e-4, "sheave_displacement": 5e-5}  # m
 random = np.random.default_rng(1)
 for file, trip in (("up.csv", "--from 1 --to 7"), ("down.csv", "--from 8 --to 3"), ("short.csv", "--from 3 --to 7")):
-    comprope(f"simulate lift.toml --drive drive.toml {trip} --time 9 --step 0.02 --direct {HIDDEN} --out {file}")
+    comprope(f"simulate elevator.toml --drive drive.toml {trip} --time 9 --step 0.02 --direct {HIDDEN} --out {file}")
     seen = pd.read_csv(file)[["time", *NOISE]]
     for column, deviation in NOISE.items():
         seen[column] += deviation * random.standard_normal(len(seen))
     seen.to_csv(file, index=False, float_format="%.6f")
 
 # %% [markdown]
-# A campaign describes them: which model, what each column is, how noisy it is, and what each run is for. A run with the
-# role "validate" is never fitted: it shows whether what was found also holds elsewhere.
+# A campaign file describes them: the model, the quantity and the noise of each column, and the role of each run. A run with
+# the role "validate" is never used for fitting: it shows whether the result generalises.
 
 # %%
 Path("campaign.toml").write_text("""\
-name = "small lift"
-model = "lift.toml"
+name = "small elevator"
+model = "elevator.toml"
 
 [[channels]]
 column = "cw_low"
 quantity = "lateral_displacement"
 sensor = "cw_low"
 unit = "m"
-reference = "rest"          # less its mean before the trip
+reference = "rest"          # subtract the mean before the trip
 noise = 3e-4
 
 [[channels]]
@@ -138,20 +138,21 @@ role = "validate"
 """)
 
 # %% [markdown]
-# ## 3. How far is the model off?
+# ## 3. The error of the model
 #
-# The model is driven as the car was, and set against every channel. Errors are shares of what a channel varies; "left /
-# noise" or χ² per sample says how much more than noise is left: 1 is as good as it gets.
+# The model is simulated with the measured car position and compared with every channel. The NRMSE is the RMS error divided by
+# the standard deviation of the channel; the reduced chi-square is the mean square of the residual divided by the variance of the
+# noise, and close to 1 if noise explains the residual.
 
 # %%
 comprope("compare . --json compare.json --report compare.html")
 before = json.loads(Path("compare.json").read_text())["nrmse"]
-assert before > 0.3  # more than noise
+assert before > 0.3  # much more than noise
 
 # %% [markdown]
 # ## 4. What is missing?
 #
-# Each known effect is tried; the plant's own parameters are refitted, so that a stiffness that is 5 % off is not taken for a
+# Each known effect is fitted together with the plant parameters, so that a stiffness error of 5 % is not mistaken for a
 # missing effect.
 
 # %%
@@ -160,14 +161,13 @@ found = json.loads(Path("diagnosis.json").read_text())
 assert found["verdict"] == "sheave_eccentricity"
 
 # %% [markdown]
-# The sheave runs out of true. The page `diagnosis.html` shows why this and not another, what else would look the same in
-# these data, and which effects they could not show at all. It also tells that some more than noise is left: here what
-# the car's noisy position does not show of its motion.
+# The sheave is eccentric. The report `diagnosis.html` compares this hypothesis with all others, lists effects that cannot be
+# distinguished in these runs, and gives detection limits. It also shows that the residual is slightly larger than noise: here
+# because the car's motion is known from a noisy position signal only.
 #
-# ## 5. Add it
+# ## 5. Add the effect
 #
-# The effect is fitted on the runs for fitting and written into a new model file. What counts is the error on the run that
-# was held out.
+# The effect is fitted on the fit runs and written into a new model file. The relevant error is that of the validation run.
 
 # %%
 comprope("add . sheave_eccentricity --out better.toml --json added.json")
@@ -176,9 +176,9 @@ values = added["parameters"]
 sys.stdout.write(f"{json.dumps(values, indent=1)}\n")
 
 # %% [markdown]
-# Two millimetres, as was hidden. `comprope journey .` does both steps again and again until nothing is missing.
+# The eccentricity is 2 mm, as in the simulated measurements. `comprope improve .` repeats both steps until nothing is missing.
 #
-# Watch the trip with it: `better.html` plays it in any browser, with the lateral motion magnified.
+# `better.html` shows an animation of the trip in any browser, with the lateral motion magnified.
 
 # %%
 comprope("simulate better.toml --drive drive.toml --from 1 --to 7 --report better.html --out better.csv")
@@ -186,15 +186,15 @@ comprope("simulate better.toml --drive drive.toml --from 1 --to 7 --report bette
 # %% [markdown]
 # ## 6. A controller
 #
-# A trip that suits the rope leaves less swing. First the swing of the present one, after the car has stopped. A coarse mesh
-# rings on the sheave by itself, by a millimetre here; so from now on elements are 5 cm.
+# A trip profile matched to the natural period of the rope reduces the residual vibration. First that of the present profile.
+# On a coarse mesh the contact with the sheave excites numerical oscillations of about 1 mm; from here on elements are 5 cm.
 
 # %%
 FINE = "--set rope.element_length=0.05 --set solver.step=0.004"
 
 
 def swing_after(drive: str) -> float:
-    """Half the span of what the lower car sensor sees [mm] in the last 7 s, when the car stands."""
+    """Half the peak-to-peak displacement [mm] at the lower car sensor in the last 7 s, after the car has stopped."""
     comprope(f"simulate better.toml {FINE} --drive {drive} --from 1 --to 7 --direct --out trip.csv")
     table = pd.read_csv("trip.csv")
     return 0.5e3 * float(np.ptp(table["car_low"][table["time"] > table["time"].iloc[-1] - 7.0]))
@@ -203,16 +203,16 @@ def swing_after(drive: str) -> float:
 plain = swing_after("drive.toml")
 
 # %% [markdown]
-# The natural periods with the car where it stops, and of these the slowest on the car's side:
+# The natural periods with the car at its destination, and of these the longest on the car side:
 
 # %%
-comprope(f"modes lift.toml {FINE} --car 7 --count 4 --json modes.json")
+comprope(f"modes elevator.toml {FINE} --car 7 --count 4 --json modes.json")
 modes = json.loads(Path("modes.json").read_text())["modes"]
 period = max(mode["period"] for mode in modes if mode["place"] == "car")
 
 # %% [markdown]
-# A shaper of two impulses (ZV) makes the trip from two halves that are half a period apart, so that their swings cancel. It costs
-# half a period of time.
+# An input shaper of two impulses (ZV) superposes two trips of half amplitude, half a period apart, so that their residual
+# vibrations cancel. The trip takes half a period longer.
 
 # %%
 shaper = f"[shaper]\nimpulses = 2\nperiod_landing = {period:.4f}\nperiod_middle = {period:.4f}\n"
@@ -222,9 +222,8 @@ sys.stdout.write(f"swing after the trip: {plain:.2f} mm; shaped for {period:.3f}
 assert shaped < 0.6 * plain
 
 # %% [markdown]
-# `comprope tune` does this by search, among several kinds of trips, shapers and servo gains, for all trips that you name. It finds
-# candidates on a small model of the rope's swing and judges the best on the full model and as FMUs; a minute or
-# more for each trip:
+# `comprope tune` optimises trip profile, input shaper and servo gains for any number of trips. It searches with a reduced model
+# of the rope and evaluates the best candidates with the full model and as FMUs; this takes a minute or more for each trip:
 #
 # ```sh
 # comprope tune building200 --trip 0:22 --out tuned
