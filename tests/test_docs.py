@@ -61,7 +61,7 @@ def test_commands_and_options_that_pages_name_exist():
             if command in known or "--" in rest:
                 named.setdefault(command, set()).update(re.findall(r"(?<!\S)--[a-z][a-z-]*", rest))
     assert set(named) <= set(known)
-    assert {"simulate", "compare", "diagnose", "add", "journey", "tune"} <= set(named)
+    assert {"simulate", "compare", "diagnose", "add", "improve", "tune"} <= set(named)
     for command, options in named.items():
         assert options <= known[command], command
 
