@@ -8,7 +8,8 @@ import pandas as pd
 
 from comprope.errors import InputError
 
-from . import Trip, recover_trip
+from .recover import recover_trip
+from .trip import Trip
 
 UNITS: dict[str, dict[str, float]] = {
     "lateral_displacement": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6},
