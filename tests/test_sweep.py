@@ -1,5 +1,7 @@
 """Sweeps: order, interruption and going on, failures, executors."""
 
+import importlib
+import importlib.util
 import json
 import subprocess
 import sys
@@ -11,8 +13,10 @@ from typing import Any
 import pytest
 
 from comprope.errors import InputError, SimulationError
+from comprope_system.parallel import sweep as sweep_module
 from comprope_system.parallel.executors import workers
 from comprope_system.parallel.sweep import key_of, sweep, values
+from comprope_system.presets import model_path
 
 calls: list[int] = []
 
@@ -101,6 +105,60 @@ def test_the_key_is_that_of_the_content() -> None:
     assert key_of(square, {"x": 1, "y": 2.0}) == key_of(square, {"y": 2.0, "x": 1})
     assert key_of(square, {"x": 1}) != key_of(square, {"x": 2})
     assert key_of(square, {"x": 1}) != key_of(interrupted, {"x": 1})
+
+
+def test_results_of_another_version_of_the_program_are_not_taken_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store = tmp_path / "results.jsonl"
+    sweep(square, numbers(2), store=store)
+    other = tmp_path / "changed.py"
+    other.write_text("x = 1")
+    monkeypatch.setattr(sweep_module, "source_files", lambda: [other])
+    sweep_module._source.cache_clear()
+    try:
+        sweep(square, numbers(2), store=store)
+        assert calls == [2, 2]
+        other.write_text("x = 2")
+        sweep_module._source.cache_clear()
+        sweep(square, numbers(2), store=store)
+        assert calls == [2, 2, 2]
+        sweep(square, numbers(2), store=store)
+        assert calls == [2, 2, 2]
+    finally:
+        sweep_module._source.cache_clear()
+
+
+def test_the_key_covers_every_module_that_a_task_runs() -> None:
+    """Also those that only the tasks of one command import, and the presets."""
+    covered = set(sweep_module.source_files())
+    modules = ("prescribed_trip", "reduced_model.swing", "tuning.task", "modal.modes", "presets.paper_installations")
+    for name in (*(f"comprope_system.{name}" for name in modules), "comprope.rope.integration.newmark", "comprope.drive.s_curve"):
+        assert Path(str(importlib.import_module(name).__file__)) in covered, name
+    assert model_path("tower50") in covered
+
+
+def test_the_key_covers_the_file_of_the_task_itself(tmp_path: Path) -> None:
+    keys = []
+    for text in ("def task(case): return 1", "def task(case): return 2"):
+        (tmp_path / "own_task.py").write_text(text)
+        specification = importlib.util.spec_from_file_location("own_task", tmp_path / "own_task.py")
+        assert specification and specification.loader
+        module = importlib.util.module_from_spec(specification)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setitem(sys.modules, "own_task", module)
+            specification.loader.exec_module(module)
+            sweep_module._source.cache_clear()
+            keys.append(key_of(module.task, {"x": 1}))
+    sweep_module._source.cache_clear()
+    assert keys[0] != keys[1]
+
+
+def test_the_key_covers_the_files_of_effects_that_the_model_names(tmp_path: Path) -> None:
+    file = tmp_path / "effect.py"
+    case, keys = {"model": {"own_effects": [str(file)]}}, []
+    for text in ("stiffness = 1.0", "stiffness = 2.0"):
+        file.write_text(text)
+        keys.append(key_of(square, case))
+    assert keys[0] != keys[1]
 
 
 def test_an_unreadable_file_of_results_is_named(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from ..reduced_model.swing import SIDES, tail
 from ..report.page import save_page, save_pictures
 from ..simulation.elevator import load_drive
 from ..studies.design import TOLERANCE
-from ..tuning.task import case_of, source
+from ..tuning.task import case_of
 from . import report
 from .building_sway import Sway, parked
 from .sensor_placement import choose
@@ -75,7 +75,7 @@ def run(request: Request) -> dict[str, Any]:
     profile = load_drive(request.drive or drive_path(request.model), tables).profile
     sway = request.sway
     base: dict[str, Any] = {"model": as_table(model), "profile": profile.model_dump(), "floors": request.floors}
-    base |= {"sway": sway.__dict__ if sway else None, "source": source()}
+    base |= {"sway": sway.__dict__ if sway else None}
     with workers(request.jobs, request.executor) as executor:
         cases = [base | {"mass": float(mass)} for mass in MASSES * model.sheave.mass if _wraps(model, float(mass))]
         scanned = values(sweep(of_mass, cases, executor, request.out / STORE, "masses"))

@@ -23,7 +23,7 @@ import comprope
 from comprope.atomic_files import require_writable
 from comprope.errors import CompropeError, InputError, SimulationError
 
-from .. import prescribed_trip
+SOURCE_SUFFIXES = (".py", ".toml")
 
 Case = Mapping[str, Any]
 Task = Callable[[Case], Any]
@@ -67,22 +67,34 @@ def values(outcomes: Sequence[Outcome]) -> list[Any]:
 
 
 def key_of(task: Task, case: Case) -> str:
-    """The key of a case's result: a hash of the function's name and module, the case, and the source of the models.
+    """The key of a case's result: a hash of the function's name and module, the case, and the source of the program.
 
-    A case must therefore hold all that its result depends on: a model as a table, not the name of its file.
+    A case must therefore hold all that its result depends on: a model as a table, not the name of its file. Only the user's
+    effects are named in a model by their files, so that the content of these counts too.
     """
-    text = json.dumps([task.__qualname__, _source(task.__module__), case], sort_keys=True)
+    effects = [Path(file) for file in case["model"].get("own_effects", ())] if isinstance(case.get("model"), Mapping) else []
+    text = json.dumps([task.__qualname__, _source(task.__module__), hash_of_files(effects), case], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 
 @cache
 def _source(module: str) -> str:
-    """A hash of the source of the models and of what runs them: results of another version must not be taken."""
-    folder = Path(comprope.__file__).parent
-    stepping = Path(prescribed_trip.__file__)
-    paths = [*sorted(folder.rglob("*.py")), stepping, Path(sys.modules[module].__file__ or "")]
-    digest = hashlib.sha256(module.encode())
+    """Hash of the source of both packages and of the task's own module: results of another version are computed again."""
+    own = Path(sys.modules[module].__file__ or "")
+    return hash_of_files([*source_files(), own] if own.is_file() else source_files(), module)
+
+
+def source_files() -> list[Path]:
+    """Every file of this program that a result can depend on: code and presets of `comprope` and `comprope_system`."""
+    folders = (Path(comprope.__file__).parent, Path(__file__).parents[1])
+    return sorted(path for folder in folders for path in folder.rglob("*") if path.suffix in SOURCE_SUFFIXES)
+
+
+def hash_of_files(paths: Sequence[Path], prefix: str = "") -> str:
+    """Hash of the names and the contents of files."""
+    digest = hashlib.sha256(prefix.encode())
     for path in paths:
+        digest.update(path.name.encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

@@ -1,17 +1,13 @@
 """One trip to tune, and what is told of a drive on it."""
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 from comprope.drive.parameters import Drive
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, with_changes
 
-from .. import reduced_model
 from ..modal.hanging_string import side_string
 from ..presets.paper_installations import with_sheave
 from ..reduced_model.calibration import calibrated
@@ -83,16 +79,7 @@ def as_case(task: Task) -> dict[str, Any]:
         "model": as_table(task.model), "drive": task.drive.model_dump(), "present": task.present.model_dump(),
         "way": [task.way.origin, task.way.destination],
         "factors": list(task.factors), "weight": task.weight, "spread": task.spread, "chosen": task.chosen, "limit": task.limit,
-        "source": source(),
     }  # fmt: skip
-
-
-@cache
-def source() -> str:
-    """A hash of the tuning's files and of the reduced model's, so that a sweep takes over no results of another version."""
-    folders = (Path(__file__).parent, Path(reduced_model.__file__).parent)
-    text = b"".join(path.read_bytes() for folder in folders for path in sorted(folder.rglob("*.py")))
-    return hashlib.sha256(text).hexdigest()[:16]
 
 
 def told_of(task: Task, drive: Drive, kind: str, small: Swing) -> dict[str, Any]:

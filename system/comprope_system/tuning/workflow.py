@@ -34,7 +34,7 @@ from .trip_tuning import drive_of, installed_case, tuned_trip
 
 PAGE, RESULT, STORE, MODELS, CONTROLLER = "tuning.html", "result.json", "runs.jsonl", "rope_models.json", "controller.drive.toml"
 TRIPS = ((0.0, 0.04), (0.0, 0.11), (0.0, 0.3), (0.0, 1.0), (1.0, 0.85), (0.5, 0.6))  # of the shaft's height
-SEEN = ("model", "way", "source")  # of a trip's case, all that its swing depends on beside the drive
+SEEN = ("model", "way")  # of a trip's case, all that its swing depends on beside the drive
 SHORTEST, LONGEST = 1.0, 5.0  # travel times over the present one
 
 
