@@ -1,7 +1,6 @@
 """The rope's native FMU for this system, built once for a test run and kept by the content of its sources."""
 
 import hashlib
-import tempfile
 from functools import cache
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from comprope.native import linker
 from comprope.native.package import STANDARDS, build_native
 from comprope.rope.model_file import load
 from comprope.rope.simulator.cosimulation import interface
+from comprope.user_cache import entry_folder, verified_files
 from comprope_system import presets
 
 ORIGIN = Origin("1.2.3", "MIT")
@@ -40,9 +40,10 @@ def tower() -> ModelInterface:
 @cache
 def native_fmu(ending: str = "native") -> Path:
     """The FMU for FMI 2.0 or, ending in `native-fmi3`, for FMI 3.0; building both takes half a minute."""
-    folder = Path(tempfile.gettempdir()) / "comprope-native" / _digest()
-    if not (made := folder / f"CompensationRope-{ending}.fmu").is_file():
-        build_native(tower(), folder, ORIGIN, STANDARDS, [linker.here()])
+    folder = entry_folder("tests", _digest())
+    with verified_files(folder, "*.fmu"):
+        if not (made := folder / f"CompensationRope-{ending}.fmu").is_file():
+            build_native(tower(), folder, ORIGIN, STANDARDS, [linker.here()])
     return made
 
 

@@ -65,7 +65,7 @@ def test_the_drive_hardly_feels_the_rope_but_does(model, reference):
 
 
 def test_a_stale_fmu_in_dist_is_not_used(tmp_path, monkeypatch):
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("COMPROPE_CACHE", str(tmp_path / "cache"))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "dist").mkdir()
     (tmp_path / "dist" / "ElevatorDrive.fmu").write_bytes(b"no FMU at all")

@@ -54,7 +54,7 @@ def test_the_wheel_works_from_another_folder(wheel, tmp_path):
         archive.extractall(tmp_path / "site")
     here = tmp_path / "elsewhere"
     here.mkdir()
-    environment = os.environ | {"PYTHONPATH": str(tmp_path / "site"), "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    environment = os.environ | {"PYTHONPATH": str(tmp_path / "site")}
     quick = [
         *("simulate", "tower50", "--set", "rope.element_length=0.2", "--set", "shaft.height=12", "--to", "3", "--time", "2"),
         *("--report", "trip.html", "--out", "trip.csv"),

@@ -1,7 +1,6 @@
 """Where the FMUs are: those in `dist/` if they hold today's code, else built into the user's cache."""
 
 import hashlib
-import os
 import sys
 import zipfile
 from collections.abc import Mapping
@@ -20,6 +19,7 @@ from comprope.fmi.package import Origin, build
 from comprope.rope.model_file import as_table, bundle, load, validated
 from comprope.rope.simulator.cosimulation import ENTRY as ROPE_ENTRY
 from comprope.rope.simulator.cosimulation import interface as rope_interface
+from comprope.user_cache import entry_folder, verified_files
 
 from ..presets import model_path
 
@@ -54,12 +54,11 @@ def locate(recipe: Recipe, dist: Path | None = None) -> Path:
     built = (dist or Path("dist")) / f"{recipe.interface.name}.fmu"
     if built.is_file() and _is_current(built, recipe):
         return built
-    folder = _cache() / _digest(recipe)
-    cached = folder / built.name
-    if not cached.is_file():
-        folder.mkdir(parents=True, exist_ok=True)
-        build(recipe.interface, [recipe.package], recipe.entry, folder, _origin(), recipe.data)
-    return cached
+    folder = entry_folder("fmu", _digest(recipe))
+    with verified_files(folder, built.name):
+        if not (folder / built.name).is_file():
+            build(recipe.interface, [recipe.package], recipe.entry, folder, _origin(), recipe.data)
+    return folder / built.name
 
 
 @cache
@@ -101,11 +100,6 @@ def _digest(recipe: Recipe) -> str:
     for file in [*_sources(recipe), *sorted((_SOURCES / "fmi").rglob("*.py"))]:
         total.update(file.relative_to(_SOURCES).as_posix().encode() + b"\0" + file.read_bytes())
     return total.hexdigest()[:16]
-
-
-def _cache() -> Path:
-    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".cache"
-    return Path(base) / "comprope" / "fmu"
 
 
 def _origin() -> Origin:

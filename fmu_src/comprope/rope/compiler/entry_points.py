@@ -10,7 +10,7 @@ import sys
 import threading
 import types
 from collections.abc import Iterable, Mapping
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 from ..effects import REGISTRY, numerical_tangent
@@ -38,7 +38,7 @@ from ..sensitivity import sheave_contact as sheave_contact_derivatives
 from ..sensitivity import static_equilibrium as static_equilibrium_derivatives
 from ..sensitivity import time_stepping as time_stepping_derivatives
 from .codegen import bare, entry_source, hook_source
-from .disk_cache import cache_folder, written
+from .disk_cache import compiled_files, kernel_folder, source_file
 
 MODULES = (
     array_layout, status, jit, effect_hooks, internal_forces, sheave_contact, end_conditions, equations_of_motion, block_band,
@@ -81,7 +81,7 @@ def compiled(effects: tuple[str, ...] | None = None) -> dict[str, jit.Entry]:
 def _joined(chosen: tuple[type[Effect], ...]) -> dict[str, jit.Entry]:
     acting = "\n".join(hook_source(hook, list(chosen)) for hook in HOOKS)
     entries = "\n".join(entry_source(name, *one) for name, one in ENTRIES.items())
-    folder = cache_folder([acting, entries, *_sources(chosen), repr(_slots(chosen))])
+    folder = kernel_folder([acting, entries, *_sources(chosen), repr(_slots(chosen))])
     if not (folder / "joined.py").exists():
         for effect in chosen:
             if effect.source:
@@ -101,8 +101,9 @@ def _joined(chosen: tuple[type[Effect], ...]) -> dict[str, jit.Entry]:
     names = {key: value for module in MODULES for key, value in vars(module).items()}
     names |= {f"all_{hook}": getattr(joined, f"all_{hook}") for hook in HOOKS}
     joined.__dict__.update(bound(names, joined.__name__))
-    exec(compile(entries, written(folder / "joined.py", entries), "exec"), joined.__dict__)
-    return {name: jit.Entry(getattr(joined, f"call_{name}"), returns) for name, (_, returns) in ENTRIES.items()}
+    exec(compile(entries, source_file(folder, entries), "exec"), joined.__dict__)
+    compiling = {name: partial(compiled_files, folder, entries, f"call_{name}") for name in ENTRIES}
+    return {name: jit.Entry(getattr(joined, f"call_{name}"), returns, compiling[name]) for name, (_, returns) in ENTRIES.items()}
 
 
 def _sources(chosen: Iterable[type[Effect]]) -> list[str]:

@@ -9,6 +9,7 @@ import ctypes
 import inspect
 import os
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -65,8 +66,10 @@ class Entry:
         "array": numba.types.CPointer(numba.float64),
     }
 
-    def __init__(self, function: Callable[..., Any], returns: str = "nothing") -> None:
-        self.function = function
+    def __init__(
+        self, function: Callable[..., Any], returns: str, compiling: Callable[[], AbstractContextManager[None]] = nullcontext
+    ) -> None:
+        self.function, self._compiling = function, compiling
         self.names = tuple(inspect.signature(function).parameters)
         result = numba.void if returns == "nothing" else self._TYPES[returns]
         self.signature = result(*(self._TYPES[kind(name)] for name in self.names))
@@ -77,7 +80,8 @@ class Entry:
         if PURE:
             return self.function
         options = {key: value for key, value in OPTIONS.items() if key != "nogil"}
-        return numba.cfunc(self.signature, cache=True, **options)(self.function).ctypes
+        with self._compiling():
+            return numba.cfunc(self.signature, cache=True, **options)(self.function).ctypes
 
     def bind(self, **arrays: NDArray[np.float64]) -> Callable[..., Any]:
         """The function with its arrays filled in; what is left to give, by name, are the scalars.
