@@ -157,14 +157,17 @@ def holed(run):
 
 
 FAULTS = [
-    (lambda run: {"cw_low": -run.values["cw_low"]}, "cw_low: moves against the model in every run"),
+    (lambda run: {"cw_low": -run.values["cw_low"]}, "cw_low: anticorrelated with the model in every run"),
     (lambda run: {"cw_low": 10.0 * run.values["cw_low"]}, "near a power of ten: check its unit"),
     (lambda run: {"cw_low": 1e3 * run.values["cw_low"]}, 'its unit is probably "um", not "mm"'),
     (lambda run: {"turning": run.values["turning"] * 30.0 / np.pi}, 'its unit is probably "rpm", not "rad/s"'),
-    (lambda run: {"cw_low": noisy(run, "cw_low", 1e-3)}, "cw_low: noise = 0.3 mm is stated, but at rest it is"),
+    (
+        lambda run: {"cw_low": noisy(run, "cw_low", 1e-3)},
+        "cw_low: noise = 0.3 mm is stated, but at rest its standard deviation is",
+    ),
     (lambda run: {"car_low": run.values["car_low"] + 2e-3 * run.time}, "car_low: drifts by about"),
-    (spiky, "car_low: samples far from their neighbours (2 in up.csv, 2 in down_light.csv, 2 in up_short.csv)"),
-    (holed, "car_low: empty where the rope should be in view: 8.9 % in up.csv"),
+    (spiky, "car_low: outliers (2 in up.csv, 2 in down_light.csv, 2 in up_short.csv)"),
+    (holed, "car_low: samples missing while the rope is in view of the sensor: 8.9 % in up.csv"),
     (
         lambda run: {c: np.interp(run.time - 0.06, run.time, v) for c, v in run.values.items()},
         "ms late against the car's position",

@@ -1,9 +1,9 @@
-"""The smooth trip behind a noisy encoder signal.
+"""Estimates the smooth motion of the car from a noisy encoder signal.
 
-A car driven by a jerk-limited controller follows a profile of seven phases closely, so that profile
-is fitted first: a dozen numbers from thousands of samples leave almost none of the noise. What the
-car does beyond it (lag, overshoot, creeping) is added by a smoothing spline, only if the signal
-speaks for it. A car that follows no such profile is described by the spline alone.
+A car driven by a jerk-limited controller closely follows a profile of seven phases, so that profile is
+fitted first: a dozen parameters estimated from thousands of samples average out nearly all of the noise.
+Deviations from the profile (lag, overshoot, creeping) are added as a smoothing spline, only if they
+increase the likelihood sufficiently. A car that follows no such profile is described by the spline alone.
 """
 
 import numpy as np
@@ -18,14 +18,14 @@ from .trip import Piece, Trip, constant
 Floats = NDArray[np.float64]
 
 REST = 0.1  # s at rest that a record must begin with
-LEVEL = 0.25  # s at an end of the record whose median is the level there
+LEVEL = 0.25  # s at either end of the record over which the median position is taken
 BEFORE, AFTER = 1.0, 2.0  # s: how far a deviation from the profile may reach beyond its ends
-LEAST_NOISE = 1e-6  # m; below it a signal is as good as exact
-EVIDENCE = 10.0  # of -2 log likelihood: what a spline must gain to be believed
+LEAST_NOISE = 1e-6  # m; lower bound of the noise, for signals that are exact for all practical purposes
+EVIDENCE = 10.0  # decrease of -2 log likelihood from which on a spline is added to the profile
 
 
 def recover_trip(time: ArrayLike, position: ArrayLike) -> Trip:
-    """The trip behind `position` [m] at `time` [s], both (n,), unevenly sampled, with gaps (NaN) and outliers.
+    """The smooth trip estimated from `position` [m] at `time` [s], both (n,), unevenly sampled, with gaps (NaN) and outliers.
 
     Raises `InputError` if times do not increase, fewer than 20 samples are numbers, or the car is
     not at rest at the beginning. A record that ends before the trip does is accepted.
@@ -51,12 +51,12 @@ def _checked(time: Floats, position: Floats) -> tuple[Floats, Floats]:
         row = int(np.argmax(np.diff(time) <= 0.0)) + 2
         raise InputError(f"time = {time[row - 1]:g} s in row {row}: must be later than the row before")
     if known.sum() < 20:
-        raise InputError(f"position: {known.sum()} numbers; at least 20 are needed to recover a trip")
+        raise InputError(f"position: {known.sum()} numbers; at least 20 are needed to estimate the motion of the car")
     return time[known], position[known]
 
 
 def _noise(time: Floats, position: Floats) -> float:
-    """Standard deviation [m] of the signal's noise, from each sample against the line between its neighbours."""
+    """Standard deviation [m] of the noise, from the distance of each sample to the line between its neighbours."""
     before, after = np.diff(time)[:-1], np.diff(time)[1:]
     share = before / (before + after)
     gap = position[1:-1] - (1.0 - share) * position[:-2] - share * position[2:]
@@ -66,13 +66,13 @@ def _noise(time: Floats, position: Floats) -> float:
 
 
 def _resolution(position: Floats) -> float:
-    """The smallest step of a signal [m]: rounding to it is noise too, which a car at rest does not show."""
+    """Smallest difference [m] between two values of a signal: its rounding is noise that does not show at rest."""
     steps = np.diff(np.unique(np.round(position, 9)))
     return float(steps.min()) if len(steps) else 0.0
 
 
 def _guess(time: Floats, position: Floats, noise: float) -> tuple[Guess | None, bool]:
-    """Where the trip roughly is, None for a car that stays; and whether the record reaches its end."""
+    """Initial guess of the trip, None for a car at rest; and whether the record includes the end of the trip."""
     first = float(np.median(position[time <= time[0] + LEVEL]))
     last = float(np.median(position[time >= time[-1] - LEVEL]))
     away, back = _lasting(np.abs(position - first) > 6.0 * noise), _lasting(np.abs(position - last)[::-1] > 6.0 * noise)
@@ -87,13 +87,13 @@ def _guess(time: Floats, position: Floats, noise: float) -> tuple[Guess | None, 
 
 
 def _lasting(moved: NDArray[np.bool_], count: int = 5) -> int | None:
-    """Index of the first of `count` successive true values: single ones are outliers."""
+    """Index of the first of `count` successive true values; fewer are taken for outliers."""
     runs = np.lib.stride_tricks.sliding_window_view(moved, count).all(axis=1)
     return int(np.argmax(runs)) if runs.any() else None
 
 
 def _free(time: Floats, position: Floats, noise: float, guess: Guess, arrives: bool) -> tuple[Trip, float]:
-    """The trip as a spline alone, outliers left out; and its -2 log likelihood."""
+    """The trip as a smoothing spline without outliers, and its -2 log likelihood."""
     start = max(guess.start - BEFORE, float(time[0]))
     stop = min(guess.stop + AFTER, float(time[-1])) if arrives else float(time[-1])
     used = _near_neighbours(time, position, noise)
@@ -104,7 +104,7 @@ def _free(time: Floats, position: Floats, noise: float, guess: Guess, arrives: b
 
 
 def _near_neighbours(time: Floats, position: Floats, noise: float) -> NDArray[np.bool_]:
-    """Which samples are near the lines through neighbours on both sides, near and farther ones."""
+    """Which samples are close to the median of the lines between pairs of neighbours, one to five samples away."""
     index = np.arange(len(time))
     lines = []
     for reach in (1, 2, 3, 4, 5):
@@ -116,7 +116,7 @@ def _near_neighbours(time: Floats, position: Floats, noise: float) -> NDArray[np
 
 
 def _shaped(time: Floats, position: Floats, fit: Fit) -> tuple[Trip, float]:
-    """The trip as a profile, with what it leaves over as a spline if the signal speaks for it."""
+    """The trip as a profile, with a spline of the residual if EVIDENCE supports it; and -2 log likelihood."""
     t, x = time[fit.used], position[fit.used]
     start, stop = max(fit.piece.start - BEFORE, float(time[0])), min(fit.piece.stop + AFTER, float(time[-1]))
     rest: Smoothed = smooth(t, x - fit.piece.value(t), start, max(stop, start + 1.0))

@@ -22,7 +22,7 @@ UNITS: dict[str, dict[str, float]] = {
 
 
 def read_table(file: Path, columns: Sequence[str]) -> pd.DataFrame:
-    """The numbers of a CSV file that must have these columns; raises `InputError` naming each column with another cell."""
+    """The numbers of a CSV file with these columns; raises `InputError` for missing columns and cells that are not numbers."""
     try:
         table = pd.read_csv(file, skipinitialspace=True)
     except OSError as error:
@@ -44,7 +44,7 @@ def _wrong_cell(file: Path, name: str, table: pd.DataFrame, numbers: pd.DataFram
 
 
 def read_trips(file: Path, table: pd.DataFrame, height: float) -> tuple[Trip, Trip]:
-    """The smooth trips of car and counterweight behind a table's positions, in a shaft of this height [m]."""
+    """The smooth trips of car and counterweight estimated from the positions of a table, for a shaft height [m]."""
     try:
         time = table["time"]
         car = recover_trip(time, table["car_position"])

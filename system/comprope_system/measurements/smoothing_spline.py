@@ -1,8 +1,8 @@
 """A quintic smoothing spline, at rest at its ends, whose smoothness is chosen by maximum likelihood.
 
-The spline is the most likely path of a car whose jerk is white noise, seen through a noisy sensor;
-the ratio of the two noises is the one that makes the measured signal most likely (restricted
-likelihood, Patterson and Thompson 1971).
+The spline is the most likely motion of a car whose jerk is white noise, measured by a noisy sensor;
+the ratio of the two noise levels maximises the restricted likelihood of the signal
+(Patterson and Thompson 1971).
 """
 
 from dataclasses import dataclass
@@ -19,14 +19,14 @@ from .trip import Piece
 Floats = NDArray[np.float64]
 
 DEGREE = 5
-SPACING = 0.04  # s between knots; what a car does faster than that no rope notices
+SPACING = 0.04  # s between knots; faster motion of the car does not excite the rope
 MOST_INTERVALS = 20000
-RANGE = (-10.0, 5.0)  # of log10 of the penalty's weight, against the data's
+RANGE = (-10.0, 5.0)  # bounds of log10 of the weight of the penalty relative to the data
 
 
 @dataclass(frozen=True)
 class Smoothed:
-    """The smooth curve, -2 log likelihood of the signal, and what a constant would have of it."""
+    """The smooth curve, -2 log likelihood of the signal, and the same for a constant."""
 
     piece: Piece
     criterion: float
@@ -58,7 +58,7 @@ def _knots(start: float, stop: float) -> Floats:
 
 
 def _tie(count: int, rest_after: bool) -> csr_array:
-    """From the free coefficients to all: three equal ones at an end make it an end at rest."""
+    """Matrix from the free coefficients to all: three equal coefficients at an end make derivatives there vanish."""
     free = eye_array(count - 2, format="csr")
     parts = [free[:1], free[:1], free]
     tie = csr_array(vstack(parts))
@@ -69,7 +69,7 @@ def _tie(count: int, rest_after: bool) -> csr_array:
 
 
 def _third_derivative(knots: Floats) -> csr_array:
-    """From coefficients to the third derivative at Gauss points, weighted so that its square sums to its integral."""
+    """Matrix from coefficients to the third derivative at Gauss points, so weighted that squares sum to the integral."""
     matrix, inner = eye_array(len(knots) - DEGREE - 1, format="csr"), knots
     for degree in range(DEGREE, DEGREE - 3, -1):
         width = inner[degree + 1 : -1] - inner[1 : -degree - 1]
@@ -98,7 +98,7 @@ class _Problem:
         """-2 log restricted likelihood (less a constant) and coefficients for log10 of the penalty's weight."""
         factor = cholesky_banded(self.data + 10.0**weight * self.penalty, lower=True)
         coefficients = cho_solve_banded((factor, True), self.right)
-        # Never below the rounding of the file the signal comes from: a signal without noise has a likelihood too.
+        # Lower bound for the likelihood of a signal without noise: the rounding of values in the file.
         misfit = max(self.square - float(coefficients @ self.right), 1e-14 * self.count)
         determinant = 2.0 * np.log(factor[0]).sum() - self.rank * weight * np.log(10.0)
         return (self.count - 1) * np.log(misfit / self.count) + determinant, coefficients

@@ -34,7 +34,7 @@ class Trip:
 
     `noise` [m] is one standard deviation of the signal it was recovered from. The car is exactly at
     rest until `rest_before` and from `rest_after` on [s]; `rest_after` is infinite when the record
-    ends before the trip does. `kind` tells how the trip was described.
+    ends before the trip does. `kind` is the representation: rest, profile, spline, or profile and spline.
     """
 
     pieces: tuple[Piece, ...]
@@ -76,11 +76,11 @@ class Trip:
 
 
 def constant(value: float) -> Curve:
-    """The curve that is `value` everywhere."""
+    """The constant curve."""
     return partial(_constant, value)
 
 
-# Module functions, not closures: a trip goes to other processes with its curves.
+# Module functions, not closures: trips are pickled when they are sent to other processes.
 def _constant(value: float, time: NDArray[np.float64], order: int = 0) -> NDArray[np.float64]:
     return np.full(np.shape(time), 0.0 if order else value)
 

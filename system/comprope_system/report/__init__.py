@@ -1,1 +1,1 @@
-"""Pages of results: self-contained HTML of one plain look."""
+"""Self-contained HTML pages of results in a uniform style."""

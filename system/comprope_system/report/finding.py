@@ -1,4 +1,4 @@
-"""What a study or a check found: facts side by side with what was expected, and what shows them."""
+"""Results of a study or check: expected and obtained values, with the text, tables and figures that support them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from .page import Block, Table
 
 @dataclass(frozen=True)
 class Fact:
-    """Something stated or expected, and what was obtained; `verdict` is a mark: yes, no, partly, pass or fail."""
+    """A stated or expected value and the one obtained; `verdict` is yes, no, partly, pass or fail."""
 
     what: str
     stated: str
@@ -18,7 +18,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Finding:
-    """Facts, then paragraphs, tables and pictures."""
+    """Facts, followed by paragraphs, tables and figures."""
 
     facts: Sequence[Fact]
     blocks: Sequence[Block]

@@ -1,4 +1,4 @@
-"""Results as JSON can hold them."""
+"""Conversion of results to JSON."""
 
 import json
 from math import isfinite
@@ -11,7 +11,7 @@ from comprope.atomic_files import atomic_write
 
 
 def plain(value: Any) -> Any:
-    """Mappings, sequences and numbers as JSON has them; a number that is none, or infinite, is null."""
+    """Mappings, sequences and numbers as JSON types; NaN and infinity become null."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple, np.ndarray)):
@@ -22,6 +22,6 @@ def plain(value: Any) -> Any:
 
 
 def save_json(path: Path, value: Any) -> None:
-    """Write a result, whole or not at all."""
+    """Write a result to a JSON file, completely or not at all."""
     with atomic_write(path) as temporary:
         temporary.write_text(json.dumps(plain(value), indent=1) + "\n", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Compose a page: sections of paragraphs, tables, pictures and animations, in one file that needs no network."""
+"""HTML pages: sections of paragraphs, tables, figures and animations in one file without external resources."""
 
 import base64
 import io
@@ -16,31 +16,31 @@ from matplotlib.figure import Figure
 from comprope.atomic_files import atomic_write
 
 DPI = 130
-NUMBER = re.compile(r"[-−+]?[\d.][\d.e+/-]*( ± [\d.e+-]+)?( [^ \d]+)?")  # or two, with a deviation, with a unit
+NUMBER = re.compile(r"[-−+]?[\d.][\d.e+/-]*( ± [\d.e+-]+)?( [^ \d]+)?")  # or two, with a standard error, with a unit
 MARKS = {"yes": "yes", "no": "no", "partly": "partly", "pass": "yes", "fail": "no"}
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table of texts; columns of numbers are set to the right, marks are coloured."""
+    """A table of texts; columns of numbers are right-aligned, marks are coloured."""
 
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
     caption: str = ""
 
     def numeric(self, column: int) -> bool:
-        """Whether a column holds numbers only."""
+        """Whether a column contains numbers only."""
         cells = [row[column] for row in self.rows]
         return bool(cells) and all(NUMBER.fullmatch(cell) for cell in cells if cell not in ("", "–"))
 
     def mark(self, cell: str) -> str:
-        """The class of a cell that is a mark such as "yes" or "fail"; empty for any other."""
+        """The CSS class of a cell that is a mark such as "yes" or "fail"; empty for any other."""
         return MARKS.get(cell, "")
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure, with a name that its file will have and a caption."""
+    """A figure with a caption and the name of its file."""
 
     name: str
     figure: Figure
@@ -73,7 +73,7 @@ Block = str | Table | Picture | Animation
 
 @dataclass(frozen=True)
 class Section:
-    """One section of a page: a name for links, a title, words quoted from elsewhere, and what it shows."""
+    """One section of a page: a name for links, a title, its content, and a quotation."""
 
     name: str
     title: str
@@ -82,7 +82,7 @@ class Section:
 
 
 def render(template: str, title: str, lead: str = "", **values: Any) -> str:
-    """The text of a page from a template of this folder, which extends `base.html`."""
+    """HTML text of a page from a template of this folder that extends `base.html`."""
     environment = Environment(
         loader=PackageLoader(__name__.rpartition(".")[0], ""),
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
@@ -93,7 +93,7 @@ def render(template: str, title: str, lead: str = "", **values: Any) -> str:
 
 
 def save_page(path: str | Path, title: str, lead: str, sections: Sequence[Section]) -> None:
-    """Write a page of sections, whole or not at all."""
+    """Write a page of sections, completely or not at all."""
     with atomic_write(path) as temporary:
         temporary.write_text(render("sections.html", title, lead, sections=sections), encoding="utf-8")
 

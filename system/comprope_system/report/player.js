@@ -1,4 +1,4 @@
-// Plays every animation of the page: a film of frames and traces, as `animation/film.py` packs it. No library, no network.
+// Plays every animation of the page: a film of frames and traces, as encoded by `simulation/animation/encoding.py`. No library, no network access.
 "use strict";
 (() => {
   const NOTHING = -32768;
@@ -19,7 +19,7 @@
     return values;
   }
 
-  // The values of one frame, `count` of them, between frames in proportion.
+  // The `count` values of one frame, interpolated linearly between frames.
   function between(values, count, at) {
     const low = Math.floor(at), part = at - low, found = new Float64Array(count);
     const next = (low + 1) * count < values.length ? count : 0;
@@ -91,7 +91,7 @@
     constructor(svg, film) {
       this.film = film;
       this.scale = (BOTTOM - TOP) / (film.height + film.pit); // per metre of height
-      this.lift = SINK / (largest(film.axle.map((one) => one - film.axle[0])) || 1); // per metre of the sheave's rise
+      this.sheaveScale = SINK / (largest(film.axle.map((one) => one - film.axle[0])) || 1); // per metre of the sheave's rise
       this.views = { shape: film.sides, swing: film.sides.map((value, k) => value - film.rest[k]) };
       this.view("swing");
       this._room(svg);
@@ -101,7 +101,7 @@
       this.sensors = film.sensors.map((one, k) => this._sensor(svg, one, COLOURS[k % COLOURS.length]));
     }
 
-    // "swing": how far from rest; "shape": how far from the vertical through the sheave's side.
+    // "swing": displacement relative to the static shape; "shape": relative to the vertical through the sheave's side.
     view(name) {
       this.shown = this.views[name];
       this.lateral = ROOM / (largest(this.shown) || 1); // per metre of lateral displacement
@@ -146,7 +146,7 @@
     show(at, time) {
       const { film } = this, ends = between(film.ends, 2, at), sides = between(this.shown, 2 * film.points, at);
       const rise = between(film.axle, 1, at)[0], n = film.points;
-      const axle = BOTTOM - this.lift * (rise - film.axle[0]);
+      const axle = BOTTOM - this.sheaveScale * (rise - film.axle[0]);
       this.wheel.setAttribute("transform", `translate(${CENTRE} ${axle}) rotate(${(between(film.angle, 1, at)[0] * 180) / Math.PI})`);
       for (const side of [0, 1]) {
         const top = this.y(ends[side]), x = (k) => this.x(side, sides[side * n + k]), y = (k) => top + film.down[k] * (axle - top);
@@ -157,7 +157,7 @@
       this.sensors.forEach((one, k) => this._see(one, Number.isFinite(valueAt(film.traces[k], time)), ends, rise, sides));
     }
 
-    // The dot is on the rope as it is drawn, which in one view is not what the sensor shows.
+    // The dot is on the rope as drawn, which in one of the views differs from the sensor's output.
     _see(one, seen, ends, rise, sides) {
       const { film } = this, share = (ends[one.side] - one.height) / (ends[one.side] + film.pit - rise);
       const shape = { time: film.down, value: sides.subarray(one.side * film.points, (one.side + 1) * film.points) };
@@ -167,7 +167,7 @@
       one.dot.style.display = one.ray.style.display = seen ? "" : "none";
     }
 
-    // Magnifies what fits the picture by another factor; returns lateral over vertical scale.
+    // Sets the magnification relative to the one that fills the picture; returns the ratio of lateral to vertical scale.
     magnify(stretch) {
       this.stretch = stretch;
       const long = round125(90 / (this.lateral * stretch)), wide = long * this.lateral * stretch;
@@ -177,7 +177,7 @@
     }
   }
 
-  // -- the rope round the sheave, in radii ----------------------------------------------------------
+  // -- the rope around the sheave, in radii ---------------------------------------------------------
   class Sheave {
     constructor(svg, film) {
       this.film = film;
@@ -190,7 +190,7 @@
       this.group = draw(svg, "g", {});
       this.wheel = wheel(this.group, 0.97, 0.025);
       this.rope = draw(this.group, "path", { fill: "none", stroke: "#1d2733", "stroke-width": 0.045 });
-      draw(svg, "text", { x: -1.7, y: 1.55, class: "tick" }, `rise and fall × ${this.factor}`);
+      draw(svg, "text", { x: -1.7, y: 1.55, class: "tick" }, `vertical motion × ${this.factor}`);
     }
 
     show(at) {
@@ -238,7 +238,7 @@
 
     show(time) {
       const value = valueAt(this.curve, time);
-      this.text.textContent = Number.isFinite(value) ? fixed(value) : "rope not there";
+      this.text.textContent = Number.isFinite(value) ? fixed(value) : "rope not in view";
       this.line.setAttribute("x1", this.x(time));
       this.line.setAttribute("x2", this.x(time));
     }
@@ -265,7 +265,7 @@
       this.film = readFilm(figure);
       this.end = (this.film.frames - 1) * this.film.interval;
       this.time = 0;
-      this.moved = null; // when the last picture was drawn, while playing
+      this.moved = null; // time at which the last frame was drawn, while playing
       this.shaft = new Shaft(this.find("shaft"), this.film);
       this.sheave = new Sheave(this.find("sheave"), this.film);
       this.traces = this.film.traces.map((one) => new Trace(this.find("traces"), one, this.end, (time) => this.show(time)));
@@ -298,7 +298,7 @@
       const [car, counterweight] = between(this.film.ends, 2, at), [rise] = between(this.film.axle, 1, at);
       const turns = (between(this.film.angle, 1, at)[0] - this.film.angle[0]) / (2 * Math.PI);
       const rows = { car: `${car.toFixed(2)} m`, counterweight: `${counterweight.toFixed(2)} m`,
-        "sheave, from its start": `${(1e3 * (rise - this.film.axle[0])).toFixed(2)} mm`, turned: `${turns.toFixed(2)} turns` };
+        "sheave displacement": `${(1e3 * (rise - this.film.axle[0])).toFixed(2)} mm`, "sheave rotation": `${turns.toFixed(2)} turns` };
       this.find("now").innerHTML = Object.entries(rows).map(([name, value]) => `<dt>${name}</dt><dd>${value}</dd>`).join("");
     }
 

@@ -1,4 +1,4 @@
-"""One look for the figures of studies and verification."""
+"""Uniform style of figures."""
 
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,6 @@
-"""What a person should know about the data before believing a fit: said, not fitted away.
+"""Data-quality checks of a campaign: each rule compares measurements with predictions and yields messages.
 
-Each rule looks at a campaign and the model's predictions for it and gives sentences. What instruments do
-wrong at large (sign, unit, clock) shows as soon as a model is set beside them, however poor the model.
+Gross errors of instruments (sign, unit, clock) are apparent in a comparison even with a poor model.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -16,13 +15,13 @@ from ..prediction.parameter_point import Predictions
 from .clock_offset import clock
 from .paired_records import LEAST, Record, by_column, records_of
 
-ALIKE = 0.7  # correlation of measured and predicted that a remark about sign or unit needs
+ALIKE = 0.7  # correlation of measured and predicted values required for a message about sign or unit
 
 
 def remarks(campaign: Campaign, predictions: Predictions, plain: Predictions | None = None) -> list[str]:
-    """Sentences about the data, the most disturbing first; empty when there is nothing to say.
+    """Messages about the data, the most serious first; empty if there are none.
 
-    `plain` are predictions in which no instrument's fault is fitted away; by default those given.
+    `plain` are predictions without fitted instrument effects; by default `predictions`.
     """
     records = list(records_of(campaign, predictions))
     untouched = list(records_of(campaign, plain or predictions))
@@ -36,16 +35,16 @@ def remarks(campaign: Campaign, predictions: Predictions, plain: Predictions | N
 
 
 def sign(group: Sequence[Record]) -> Iterator[str]:
-    """A channel that moves against the model in every run that shows it."""
+    """A channel that is anticorrelated with the model in every run."""
     seen = [one.gain() for one in group if np.isfinite(one.gain()[0])]
     if seen and max(c for _, c in seen) < 0.0 and min(c for _, c in seen) < -ALIKE:
         name = group[0].channel.column
         gain = float(np.median([g for g, _ in seen]))
-        yield f"{name}: moves against the model in every run (gain {gain:.2f}): its sign is probably wrong"
+        yield f"{name}: anticorrelated with the model in every run (gain {gain:.2f}): its sign is probably wrong"
 
 
 def unit(group: Sequence[Record]) -> Iterator[str]:
-    """A channel whose size is that of another unit, or of another power of ten."""
+    """A channel whose amplitude indicates another unit or another power of ten."""
     seen = [abs(one.gain()[0]) for one in group if abs(one.gain()[1]) > ALIKE]
     if not seen or max(seen) > 1.5 * min(seen):
         return
@@ -53,9 +52,10 @@ def unit(group: Sequence[Record]) -> Iterator[str]:
     scales = UNITS[channel.quantity]
     fitting = [name for name, scale in scales.items() if scale != channel.scale and _near(gain * scale / channel.scale)]
     if fitting and not _near(gain):
-        yield f'{channel.column}: {gain:.3g} times what the model has; its unit is probably "{fitting[0]}", not "{channel.unit}"'
+        size = f"{channel.column}: {gain:.3g} times the amplitude of the model"
+        yield f'{size}; its unit is probably "{fitting[0]}", not "{channel.unit}"'
     elif abs(np.log10(gain)) > 0.8 and abs(np.log10(gain) - round(float(np.log10(gain)))) < 0.15:
-        yield f"{channel.column}: {gain:.3g} times what the model has, near a power of ten: check its unit"
+        yield f"{channel.column}: {gain:.3g} times the amplitude of the model, near a power of ten: check its unit"
 
 
 def _near(gain: float) -> bool:
@@ -63,29 +63,28 @@ def _near(gain: float) -> bool:
 
 
 def noise(group: Sequence[Record]) -> Iterator[str]:
-    """A stated noise that the steps between samples at rest contradict."""
+    """A stated noise that differs from the one estimated from samples at rest."""
     channel = group[0].channel
     taken = [one.noise for one in group if channel.noise and one.noise != channel.noise * channel.scale]
     if channel.noise and taken:
         seen = float(np.median(taken)) / channel.scale
-        told = "more" if seen > channel.noise else "less"
         stated = f"{channel.column}: noise = {channel.noise:g} {channel.unit} is stated"
-        yield f"{stated}, but at rest it is {seen:.2g} {channel.unit}, {told} than that; the latter is taken"
+        yield f"{stated}, but at rest its standard deviation is {seen:.2g} {channel.unit}; the latter is used"
 
 
 def drift(group: Sequence[Record]) -> Iterator[str]:
-    """A residual that goes on climbing at the same rate before the trip and after it."""
+    """A residual with the same slope before and after the trip."""
     slopes = [pooled_slope(group, phase) for phase in ("rest", "after_stop")]
     (before, d_before), (after, d_after) = slopes
     surely = min(abs(before) / d_before, abs(after) / d_after)
     if surely > 4.0 and before * after > 0.0 and 0.5 < before / after < 2.0:
         channel = group[0].channel
         rate = 60.0 * 0.5 * (before + after) / channel.scale
-        yield f"{channel.column}: drifts by about {rate:.2g} {channel.unit} a minute, before the trips and after them alike"
+        yield f"{channel.column}: drifts by about {rate:.2g} {channel.unit} per minute, before and after the trips"
 
 
 def pooled_slope(group: Sequence[Record], phase: str) -> tuple[float, float]:
-    """Mean slope [SI/s] of the residual in a phase over all runs, and its standard deviation from runs and noise."""
+    """Mean slope [SI/s] of the residual in a phase over all runs, and its standard error from run scatter and noise."""
     found = []
     for one in group:
         mask = phases(one.run.trip, one.run.time)[phase] & one.both
@@ -102,19 +101,19 @@ def pooled_slope(group: Sequence[Record], phase: str) -> tuple[float, float]:
 
 
 def far_out(group: Sequence[Record]) -> Iterator[str]:
-    """Samples far from their neighbours."""
+    """Outliers: samples far from their neighbours."""
     counts = {}
     for one in group:
         known = one.measured[np.isfinite(one.measured)]
         if len(known) >= LEAST and (count := int(outliers(known, one.noise).sum())):
             counts[one.run.file] = count
     if counts:
-        told = ", ".join(f"{count} in {file}" for file, count in counts.items())
-        yield f"{group[0].channel.column}: samples far from their neighbours ({told}); they are left out of fits"
+        numbers = ", ".join(f"{count} in {file}" for file, count in counts.items())
+        yield f"{group[0].channel.column}: outliers ({numbers}); they are excluded from fits"
 
 
 def gaps(group: Sequence[Record]) -> Iterator[str]:
-    """Samples that are missing although the rope should be in view, or there although it should not."""
+    """Samples missing while the rope is in view of the sensor, or present after its end has passed the sensor."""
     missing, extra = {}, {}
     for one in group:
         holes, seen = np.isnan(one.measured), np.isfinite(one.predicted)
@@ -124,18 +123,18 @@ def gaps(group: Sequence[Record]) -> Iterator[str]:
             extra[one.run.file] = share
     name = group[0].channel.column
     if missing:
-        told = ", ".join(f"{100 * share:.2g} % in {file}" for file, share in missing.items())
-        yield f"{name}: empty where the rope should be in view: {told}"
+        shares = ", ".join(f"{100 * share:.2g} % in {file}" for file, share in missing.items())
+        yield f"{name}: samples missing while the rope is in view of the sensor: {shares}"
     if extra:
-        yield f"{name}: shows values where the rope's end has passed the sensor, in {', '.join(extra)}; they are left out"
+        yield f"{name}: values although the rope's end has passed the sensor, in {', '.join(extra)}; they are excluded"
 
 
 def unseen_rest(group: Sequence[Record]) -> Iterator[str]:
-    """A channel that counts from a rest at which it shows nothing."""
+    """A channel with reference "rest" that has no samples at rest."""
     runs = [one.run.file for one in group if not np.isfinite(one.measured[one.run.rest]).any()]
     if group[0].channel.reference == "rest" and runs:
-        told = f"{group[0].channel.column}: counts from rest, but shows nothing before the trip in {', '.join(runs)}"
-        yield f"{told}: taken there as it is written"
+        missing = f'{group[0].channel.column}: reference = "rest", but no samples before the trip in {", ".join(runs)}'
+        yield f"{missing}; these values are used as absolute ones"
 
 
 Rule = Callable[[Sequence[Record]], Iterator[str]]
@@ -150,15 +149,15 @@ def _of_run(run: Run) -> Iterator[str]:
     steps = np.diff(run.time)
     widest = int(np.argmax(steps))
     if steps[widest] > max(10.0 * float(np.median(steps)), 0.2):
-        yield f"{run.file}: no samples at all for {steps[widest]:.2g} s from time = {run.time[widest]:.4g} s on"
+        yield f"{run.file}: no samples of any channel for {steps[widest]:.2g} s after time = {run.time[widest]:.4g} s"
     if run.trip.kind == "rest":
         yield f"{run.file}: the car does not move"
     elif run.time[-1] < run.trip.rest_after:
         yield f"{run.file}: the record ends before the car stops"
     if run.trip.kind != "rest" and run.trip.rest_before - run.time[0] < 0.5:
         rest = run.trip.rest_before - run.time[0]
-        yield f"{run.file}: only {rest:.2f} s at rest before the trip: values that count from rest are uncertain"
+        yield f"{run.file}: only {rest:.2f} s at rest before the trip: the reference values at rest are uncertain"
     if run.trip.noise > 5e-3:
-        yield f"{run.file}: car_position scatters by {1e3 * run.trip.noise:.1f} mm about a smooth trip"
+        yield f"{run.file}: car_position deviates from a smooth trip by {1e3 * run.trip.noise:.1f} mm (standard deviation)"
     if run.trip.kind == "spline":
-        yield f"{run.file}: the car follows no jerk-limited profile; its trip is a smoothed curve, less sure in its accelerations"
+        yield f"{run.file}: the car follows no jerk-limited profile; a smoothing spline is used, with less accurate accelerations"
