@@ -16,11 +16,11 @@ from .traces import traces
 
 _LEAD = "One trip of {distance:.1f} m in a shaft of {height:g} m with a sheave mass of {mass:g} kg per rope."
 _CAPTION = (
-    "Left: the shaft; lateral motion is magnified, the distance of the two sides and the size of the sheave are not to scale. "
-    "The displacement is drawn relative to the static shape for the same car position, or relative to the vertical (dotted), "
-    "where a straight, perfectly flexible rope would be. Right: the rope around the sheave, to scale; the vertical motion of the "
-    "sheave is magnified. Plots: displacement at each sensor, positive outward on either side; a curve is interrupted while the end of "
-    "the rope has passed the sensor."
+    "Left: the shaft; lateral motion is magnified, the distance of the two sides and the size of the sheave are not to scale."
+    " The displacement is drawn relative to the static shape for the same car position, or relative to the vertical (dotted),"
+    " where a straight, perfectly flexible rope would be. Right: the rope around the sheave, to scale; the vertical motion of"
+    " the sheave is magnified. Plots: displacement at each sensor, positive outward on either side; a curve is interrupted "
+    "while the end of the rope has passed the sensor."
 )
 
 
