@@ -1,0 +1,110 @@
+"""Forces, single time steps, the energy balance and the outputs, against formulas written out anew with numpy on few nodes."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from comprope.drive.trajectory.s_curve import TrajectoryPoint
+from comprope.rope.integration.state import State
+from comprope.rope.simulator.rope import CompensationRope
+
+from .random_rope import forces as kernel_forces
+from .random_rope import random_state
+from .reference_rope import ReferenceRope
+from .rope_tower import STUB, rope, way
+
+H, DAMPING = 0.004, 0.15
+CHANGES = {"solver.step": H, "solver.numerical_damping": DAMPING, "rope.external_damping": 2.0, "rope.axial_damping": 200.0}
+BETA, GAMMA = 0.25 * (1.0 + DAMPING) ** 2, 0.5 + DAMPING
+STEPS = 30
+
+
+def reference(one: CompensationRope, state: State) -> ReferenceRope:
+    return ReferenceRope(one.model, one.element, state.q.reshape(2, -1), state.v.reshape(2, -1))
+
+
+def motion(time: float) -> TrajectoryPoint:
+    """The car rises and falls by 2 cm, with an acceleration of up to 3 m/s2, from rest."""
+    w = 12.0
+    turned = w * time
+    return TrajectoryPoint(0.5 + 0.02 * (1.0 - np.cos(turned)), 0.02 * w * np.sin(turned), 0.02 * w * w * np.cos(turned))
+
+
+@cache
+def shaken() -> tuple[CompensationRope, list[State], list[np.ndarray], list[dict[str, float]]]:
+    """A rope in the shaft of one metre after time steps of the car's swing; states, forces and energies after each."""
+    one = rope(CHANGES, STUB)
+    one.settle(0.5, 0.5)
+    states, forces, energies = [one.state.copy()], [evaluated(one)], [one.energies()]
+    for k in range(STEPS):
+        one.step(H, way(STUB.sheave.radius, STUB.shaft.height, motion(k * H), motion((k + 1) * H)))
+        states.append(one.state.copy())
+        forces.append(evaluated(one))
+        energies.append(one.energies())
+    return one, states, forces, energies
+
+
+def evaluated(one: CompensationRope) -> np.ndarray:
+    """The forces at the state reached, as the outputs have just evaluated them."""
+    one.outputs()
+    return one._do.f.copy()
+
+
+def free(one: CompensationRope) -> np.ndarray:
+    """Coordinates that move freely: all but the four of the prescribed ends."""
+    return np.setdiff1d(np.arange(2 * (one.n + 1)), (0, one.n - 1, one.n + 1, 2 * one.n))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_forces_are_those_of_the_equations(seed: int) -> None:
+    changes = {"rope.external_damping": 2.0}
+    do, model = random_state(changes, seed), rope(changes, STUB)
+    found = kernel_forces(do).reshape(2, -1)
+    own = ReferenceRope(model.model, model.element, do.state.q.reshape(2, -1), do.state.v.reshape(2, -1))
+    # Forces of up to 1e5 N from strains of 1e-3 known to 1e-13; curvature from a sine to its ninth order, good to 1e-9.
+    assert np.abs(own.contact[0]).max() > 1.0
+    assert found == pytest.approx(own.forces, rel=1e-8, abs=1e-6)
+
+
+def test_a_step_follows_newmark_s_rule_and_balances_as_hilber_hughes_and_taylor_have_it() -> None:
+    one, states, forces, _ = shaken()
+    inner, mass = free(one), reference(one, states[0]).masses.ravel()
+    for before, now, f0, f1 in zip(states[10:], states[11:], forces[10:], forces[11:], strict=False):
+        q = before.q + H * before.v + H**2 * ((0.5 - BETA) * before.a + BETA * now.a)
+        v = before.v + H * ((1.0 - GAMMA) * before.a + GAMMA * now.a)
+        assert np.abs(before.a[inner]).max() > 1.0  # m/s2
+        assert now.q[inner] == pytest.approx(q[inner], rel=0.0, abs=1e-13)
+        assert now.v[inner] == pytest.approx(v[inner], rel=0.0, abs=1e-11)
+        balance = (1.0 - DAMPING) * f1 + DAMPING * f0 - mass * now.a
+        # A correction below 1e-8 m ends the iteration; the one after it would be some 1e-11 m, of 1e8 N/m. Forces change by 7 N.
+        assert balance[inner] == pytest.approx(np.zeros(inner.size), abs=1e-3)
+
+
+def test_stored_energies_and_losses_are_those_of_the_motion() -> None:
+    """Each stored energy at each state, each loss by the trapezoidal rule over each step."""
+    one, states, _, energies = shaken()
+    own = [reference(one, state) for state in states]
+    for state, energy in zip(own, energies, strict=True):
+        for name, value in state.stored().items():
+            assert energy[name] == pytest.approx(value, rel=1e-5, abs=1e-6), name
+    for before, now, e0, e1 in zip(own, own[1:], energies, energies[1:], strict=False):
+        for name, power in now.losses().items():
+            lost = 0.5 * H * (before.losses()[name] + power)
+            # Powers are those of the last iterate, whose velocities are 1e-8 m / h from those reached: some 1e-4 of the slip.
+            assert e1[name] - e0[name] == pytest.approx(lost, rel=3e-3, abs=1e-7), name
+    assert all(energies[-1][name] > 1e-5 for name in own[0].losses())  # J, else nothing would be compared
+
+
+def test_the_ends_do_the_work_of_their_holders_and_the_energy_balances() -> None:
+    one, states, _, energies = shaken()
+    ends = [0, one.n - 1]
+    held = [reference(one, state).holders(state.a.reshape(2, -1)) for state in states]
+    for k in range(STEPS):
+        moved = (states[k + 1].q - states[k].q).reshape(2, -1)[:, ends]
+        work = float((0.5 * (held[k] + held[k + 1]) * moved).sum())
+        assert energies[k + 1]["ends"] - energies[k]["ends"] == pytest.approx(work, rel=1e-4, abs=1e-5)
+    stored = reference(one, states[-1]).stored()
+    gained = sum(stored.values()) - sum(reference(one, states[0]).stored().values())
+    lost = sum(energies[-1][name] for name in reference(one, states[0]).losses())
+    assert one.energy_residual == pytest.approx(gained - energies[-1]["ends"] + lost, abs=1e-6)
