@@ -91,7 +91,7 @@ def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
     with pytest.raises(SystemExit) as done:
         cli.main([str(one) for one in ("design", "tower50", *changes, *asked)])
     assert (done.value.code or 0) == 0
-    assert capsys.readouterr().out.startswith("least sheave for 4 mm: ")
+    assert capsys.readouterr().out.startswith("smallest sheave mass for 4 mm: ")
     result = json.loads((tmp_path / "result.json").read_text())
     mass, swings = result["mass"], dict(map(tuple, result["full"]))
     assert swings[mass] <= 4e-3

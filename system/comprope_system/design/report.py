@@ -1,4 +1,4 @@
-"""The page of `comprope design`."""
+"""HTML page of `comprope design`."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -15,30 +15,29 @@ from .trip_envelopes import course, floors
 
 TITLE = "Compensation rope: sheave and sensors"
 LEAD = (
-    "The least sheave that keeps the rope's swing under a limit on all trips between floors and in a swaying building, the "
-    "heights from which sensors see it, and where periods meet. Swing is the farthest departure of either side from its shape "
-    "at rest."
+    "The smallest sheave mass that meets a limit of the swing on all trips between floors and under building sway, sensor "
+    "heights, and resonances. Swing is the largest lateral displacement of either side of the rope relative to its static shape."
 )
 Result = Mapping[str, Any]
 MODES = (1, 2, 3)
 
 
 def summary(result: Result) -> list[str]:
-    """What was found, in lines."""
+    """Results as lines of text."""
     places = ", ".join(f"{one['side']} {one['height']:.1f} m" for one in result["sensors"]["places"])
     return [
-        f"least sheave for {1e3 * result['limit']:g} mm: {result['mass']:.1f} kg for each rope "
-        f"(small rope: {result['mass_small']:.1f} kg)",
-        f"sensors: {places}; the best of them sees {100.0 * result['sensors']['share']:.0f} % of any large swing or more",
+        f"smallest sheave mass for {1e3 * result['limit']:g} mm: {result['mass']:.1f} kg per rope "
+        f"(reduced model: {result['mass_small']:.1f} kg)",
+        f"sensors: {places}; one of them measures at least {100.0 * result['sensors']['share']:.0f} % of any large swing",
     ]
 
 
 def sections(result: Result, model: RopeModel, chosen: RopeModel, profile: Profile) -> list[Section]:
     """The page's sections."""
     return [
-        Section("mass", "The least sheave", _mass(result)),
-        Section("resonance", "Where periods meet", _resonance(result, model, chosen, profile)),
-        Section("sensors", "Where to look", _sensors(result)),
+        Section("mass", "Smallest sheave mass", _mass(result)),
+        Section("resonance", "Resonances", _resonance(result, model, chosen, profile)),
+        Section("sensors", "Sensor heights", _sensors(result)),
     ]
 
 
@@ -50,22 +49,20 @@ def _mass(result: Result) -> list[Block]:
         if not sway
         else ""
         if result["sway_limit"] is None
-        else f" and the swing in the sway under {result['sway_limit']:g} mm"
+        else f" and the swing under building sway below {result['sway_limit']:g} mm"
     )
     swayed = (
         f"The building sways by {1e3 * sway['amplitude']:g} mm at the top landing with a period of {sway['period']:g} s for "
-        f"{sway['duration']:g} s, the car parked: the worst floor near that mass is at {worst['sway_car']:g} m, with "
-        f"{1e3 * worst['sway']:.1f} mm. A floor whose rope has that period swings most; another weight moves the floor, parking "
-        "elsewhere helps. " if sway else ""
+        f"{sway['duration']:g} s, car parked: the worst floor for a similar mass is at {worst['sway_car']:g} m, with "
+        f"{1e3 * worst['sway']:.1f} mm. The swing is largest at the floor where the rope has the period of the sway; another "
+        "mass shifts this floor, and parking at another floor avoids the resonance. " if sway else ""
     )  # fmt: skip
     text = (
-        f"{result['mass']:.1f} kg for each rope keep the swing under {1e3 * result['limit']:g} mm on all trips between "
-        f"{result['floors']} floors{kept}. The worst trip near that mass goes from {worst['trip'][0]:g} to "
-        f"{worst['trip'][1]:g} m. "
-        "Masses are scanned on the small linear rope; the worst trip is run on the full model, the mass "
-        "raised until that keeps the "
-        f"limit too. {swayed}The sway is judged on the small rope alone, which has no damping, so that it "
-        "errs upward near resonance."
+        f"{result['mass']:.1f} kg per rope keep the swing below {1e3 * result['limit']:g} mm on all trips between "
+        f"{result['floors']} floors{kept}. For a mass near this one the worst trip is from {worst['trip'][0]:g} to "
+        f"{worst['trip'][1]:g} m. The mass is scanned with the reduced linear model; the worst trip is simulated with the "
+        f"full model, and the mass increased until it meets the limit. {swayed}Building sway is evaluated with the reduced "
+        "model only, which has no damping and therefore overestimates the swing near resonance."
     )
     rows = [
         (f"{one['mass']:.1f}", f"{1e3 * one['swing']:.2f}", f"{one['trip'][0]:g} to {one['trip'][1]:g} m",
@@ -75,7 +72,7 @@ def _mass(result: Result) -> list[Block]:
     head = ("mass [kg]", "worst trip [mm]", "which", "worst after a trip [mm]", "worst sway [mm]", "car parked at [m]")
     full = Table(
         ("mass [kg]", "worst trip, full model [mm]"), [(f"{mass:.1f}", f"{1e3 * swing:.2f}") for mass, swing in result["full"]],
-        "The worst trip run on the full model, the last mass being the one chosen",
+        "The worst trip simulated with the full model; the last mass is the result",
     )
     return [text, Picture("design_mass", _draw_mass(result)), Table(head, rows), full]
 
@@ -95,22 +92,21 @@ def _draw_mass(result: Result) -> Any:
     axes.axhline(1e3 * result["limit"], color=COLOURS[4], linewidth=1.0, label="limit")
     axes.axvline(result["mass"], color=GREY, linewidth=0.9)
     plain_log(axes.xaxis, axes.yaxis)
-    label(axes, "sheave mass [kg]", "largest departure [mm]")
+    label(axes, "sheave mass [kg]", "largest displacement [mm]")
     legend(axes)
     return figure
 
 
 def _resonance(result: Result, model: RopeModel, chosen: RopeModel, profile: Profile) -> list[Block]:
     text = (
-        "Blue and orange: natural periods of both sides over the car's position, one to three half waves. "
-        "Green: trips up from the "
-        "bottom and down from the top landing, at the height where they end and the time they take, marks at "
-        "the floors; where green "
-        "crosses blue or orange a trip lasts as long as the rope swings. The band is the building's sway, 5 % to either side."
+        "Blue and orange: natural periods of both sides over the car position, one to three half waves. Green: duration of trips "
+        "up from the bottom and down from the top landing over the position where they end, with marks at the floors; at "
+        "an intersection of green with blue or orange the duration of the trip equals a natural period. The band is the period "
+        "of the building sway ± 5 %."
     )
     pictures = [
         Picture(f"resonance_{name}", _draw_resonance(result, one, profile), f"Sheave of {one.sheave.mass:.1f} kg ({told})")
-        for name, one, told in (("own", model, "as in the model"), ("least", chosen, "the least one"))
+        for name, one, told in (("own", model, "as in the model"), ("least", chosen, "the smallest"))
     ]
     return [text, *pictures]
 
@@ -147,11 +143,9 @@ def _draw_resonance(result: Result, model: RopeModel, profile: Profile) -> Any:
 def _sensors(result: Result) -> list[Block]:
     found = result["sensors"]
     text = (
-        f"The {len(found['places'])} sensors were chosen one after the other and then exchanged, so that on "
-        "the trips that swing most, "
-        "and after them, the best of them sees as much as possible of the largest swing anywhere. On the "
-        "worst of these trips it sees "
-        f"{100.0 * found['share']:.0f} %."
+        f"The {len(found['places'])} sensors were placed by greedy selection followed by exchange, so that during and after "
+        "the trips with the largest swing the sensor with the largest signal measures as much as possible of the maximum along "
+        f"the rope: {100.0 * found['share']:.0f} % or more on each of these trips."
     )
     rows = [(one["side"], f"{one['height']:.1f}") for one in found["places"]]
     return [text, Table(("side", "height above the bottom landing [m]"), rows), Picture("design_sensors", _draw_sensors(found))]
@@ -165,5 +159,5 @@ def _draw_sensors(found: Mapping[str, Any]) -> Any:
         for place in found["places"]:
             if place["side"] == side:
                 one.axhline(place["height"], color=COLOURS[1], linewidth=1.2)
-        label(one, "largest departure over trips [mm]", "height [m]", f"{side}'s side; orange: sensors")
+        label(one, "largest displacement over trips [mm]", "height [m]", f"{side}'s side; orange: sensors")
     return figure

@@ -1,4 +1,4 @@
-"""The pictures of `comprope tune`."""
+"""Figures of `comprope tune`."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -9,7 +9,7 @@ LINES = (("present", "present", GREY), ("best S-curve", "s_curve", COLOURS[1]), 
 
 
 def draw_installed(trip: Mapping[str, Any]) -> Any:
-    """Speed, acceleration and the largest departure over time: before and after."""
+    """Speed, acceleration and largest relative displacement over time: present, best S-curve and tuned."""
     figure, (speed, acceleration, swing) = panels(1, 3, height=2.1)
     for name, key, colour in LINES:
         one = trip["installed"][key]
@@ -20,7 +20,7 @@ def draw_installed(trip: Mapping[str, Any]) -> Any:
     legend(speed, ncols=3)
     label(speed, "", "reference speed [m/s]")
     label(acceleration, "", "acceleration [m/s²]")
-    label(swing, "time [s] (dotted: end of the trip)", "largest departure [mm]")
+    label(swing, "time [s] (dotted: end of the trip)", "largest displacement [mm]")
     return figure
 
 
@@ -42,10 +42,10 @@ def draw_fronts(trips: Sequence[Mapping[str, Any]]) -> Any:
 
 
 def draw_servo(servo: Mapping[str, Any]) -> Any:
-    """Margins and the bounce's damping, before and after."""
+    """Stability margins and damping of the vertical vibration of the car, before and after."""
     figure, axes = panels(4, height=2.4)
     names = (("gain", "gain margin", 1.0), ("phase", "phase margin [°]", 1.0), ("delay", "delay margin [ms]", 1e3),
-             ("bounce", "damping of the bounce", 1.0))  # fmt: skip
+             ("bounce", "damping of the vibration", 1.0))  # fmt: skip
     for one, (key, text, scale) in zip(axes, names, strict=True):
         values = [scale * servo[name][key] for name in ("present", "chosen")]
         one.bar(["present", "chosen"], values, color=[GREY, COLOURS[0]], width=0.6)

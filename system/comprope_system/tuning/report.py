@@ -1,4 +1,4 @@
-"""The page of `comprope tune`: fronts, the chosen controllers, what time a quiet rope costs, and how surely."""
+"""HTML page of `comprope tune`: trade-off of travel time and swing, controllers, robustness, error of the reduced model."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -6,11 +6,11 @@ from typing import Any
 from ..report.page import Block, Picture, Section, Table
 from .figures import draw_fronts, draw_installed, draw_servo
 
-TITLE = "Controller tuned against the rope"
+TITLE = "Tuning of trips and servo"
 LEAD = (
-    "Swing is the departure of either side of the rope from its shape at rest with the car where it is: the farthest during the "
-    "trip, and half the range after it. Candidates are found on a small linear rope and judged on the "
-    "full model with drive and servo."
+    "Swing is the lateral displacement of either side of the rope relative to its static shape for the same car position: the "
+    "maximum during the trip, and half the peak-to-peak value after it. Candidates are found with a reduced linear model and "
+    "evaluated with the full model with drive and servo."
 )
 Result = Mapping[str, Any]
 
@@ -18,13 +18,13 @@ Result = Mapping[str, Any]
 def sections(result: Result) -> list[Section]:
     """The page's sections."""
     return [
-        Section("trips", "Trips: before and after", _trips(result)),
+        Section("trips", "Trips: present and tuned", _trips(result)),
         Section("fronts", "Travel time against swing", _fronts(result)),
-        Section("quiet", "What a quieter rope costs", _quiet(result)),
-        Section("robust", "Another sheave", _robust(result)),
-        Section("servo", "Servo gains and margins", _servo(result)),
+        Section("quiet", "Travel time needed for less swing", _quiet(result)),
+        Section("robust", "Robustness against the sheave mass", _robust(result)),
+        Section("servo", "Servo gains and stability margins", _servo(result)),
         Section("controller", "One controller for all trips", _controller(result)),
-        Section("search", "How well the search knows the rope", _search(result)),
+        Section("search", "Error of the reduced model", _search(result)),
     ]
 
 
@@ -34,7 +34,7 @@ def summary(result: Result) -> list[str]:
     for trip in result["trips"]:
         shown = trip["installed"]
         if not shown:
-            lines.append(f"{_name(trip)}: no travel time asked for meets the limit")
+            lines.append(f"{_name(trip)}: no travel time requested meets the limit")
             continue
         swings = ", ".join(f"{name} {_pair(shown[key]['swing'])}" for name, key in NAMES)
         lines.append(f"{_name(trip)}: during/after [mm] {swings}; {shown['factor']:g} times the present travel time")
@@ -74,11 +74,11 @@ def _trips(result: Result) -> list[Block]:
         blocks.append(Picture(f"trip_{trip['origin']:g}_{trip['destination']:g}", draw_installed(trip), _name(trip)))
     head = (
         "trip", "present [s]", "tuned [s]", "present: during [mm]", "after", "best S-curve: during", "after", "tuned: during",
-        "after", "kind", "less in both",
+        "after", "family", "less in both",
     )  # fmt: skip
     text = (
-        "Run by the FMUs of drive and rope. The best S-curve is the jerk-limited trip of the same travel time, within the same "
-        "limits and with the same servo, that swings least."
+        "Simulated with the FMUs of drive and rope. The best S-curve is the jerk-limited trip with the same travel time, limits "
+        "and servo and the smallest swing."
     )
     return [text, Table(head, rows), *blocks]
 
@@ -89,7 +89,7 @@ def _fronts(result: Result) -> list[Block]:
         for point in trip["points"]:
             swings = [_mm(one) for key in ("s_curve", "tuned") for one in point[key]["full"]]
             rows.append((_name(trip), f"{point['factor']:g}", f"{point['time']:.2f}", *swings, point["tuned"]["kind"]))
-    head = ("trip", "of the present time", "time [s]", "S-curve: during [mm]", "after", "tuned: during", "after", "kind")
+    head = ("trip", "travel time / present", "time [s]", "S-curve: during [mm]", "after", "tuned: during", "after", "family")
     return [Picture("fronts", draw_fronts(result["trips"])), Table(head, rows)]
 
 
@@ -107,20 +107,19 @@ def _quiet(result: Result) -> list[Block]:
             ]  # fmt: skip
         rows.append((_name(trip), f"{present:.2f}", f"{trip['period']:.2f}", *cells))
         if trip["bound"]["too_short"] > 0.0:
-            short.append(f"{_name(trip)} ({100.0 * trip['bound']['too_short']:.0f} % of a blow's swing)")
+            short.append(f"{_name(trip)} ({100.0 * trip['bound']['too_short']:.0f} % of the swing of an impulse)")
     head = (
-        "trip", "present [s]", "slowest period [s]", "half: extra [s]", "less, full model [%]", "bound [s]", "a fifth: extra [s]",
-        "less, full model [%]", "bound [s]",
+        "trip", "present [s]", "longest period [s]", "half: additional [s]", "reduction, full model [%]", "bound [s]",
+        "a fifth: additional [s]", "reduction, full model [%]", "bound [s]",
     )  # fmt: skip
     text = (
-        "Extra travel time for half and for a fifth of the present swing after the trip. The bound is the "
-        "extra time of the fastest "
-        "acceleration profile whatsoever within the limits whose spectrum at the slowest period, held fixed, "
-        "is so small; the rope's "
-        "period changes on the way and its other swings count too, so that the rope can need more or less."
+        "Additional travel time that reduces the swing after the trip to a half and to a fifth. The bound is the additional time "
+        "of the fastest acceleration profile of any shape within the limits whose spectrum at the longest period is as small; "
+        "since the period of the rope changes during the trip and other modes contribute, the actual value may be larger or "
+        "smaller."
     )
-    told = f"Shorter than half a period, so that no profile hides the trip from the rope: {', '.join(short)}." if short else (
-        "Every trip lasts longer than half a period: none is too short to hide."
+    told = f"Shorter than half a period, so that no profile avoids the excitation: {', '.join(short)}." if short else (
+        "Every trip lasts longer than half a period."
     )  # fmt: skip
     return [text, Table(head, rows), told]
 
@@ -135,7 +134,7 @@ def _robust(result: Result) -> list[Block]:
     head = ["trip"]
     for mass in ("−10 %", "+10 %"):
         head += [f"{mass}: S-curve, during [mm]", "after", "tuned: during", "after"]
-    return ["The same drives with the sheave a tenth lighter and heavier, on the full model.", Table(head, rows)]
+    return ["The same drives with a sheave mass 10 % lower and higher, full model.", Table(head, rows)]
 
 
 def _servo(result: Result) -> list[Block]:
@@ -148,14 +147,12 @@ def _servo(result: Result) -> list[Block]:
         ))  # fmt: skip
     head = (
         "servo", "position [rad/s]", "speed [rad/s]", "damping", "gain margin", "phase margin [°]", "delay margin [ms]",
-        "damping of the slower bounce",
+        "damping ratio of the slower vibration",
     )  # fmt: skip
     text = (
-        "Car and counterweight bounce on their hoist ropes, and the bounce swings the rope where a side has "
-        "a period near it. The "
-        "gains chosen damp it most, in the mean over the car's positions, among those that keep a gain "
-        "margin of 2, a phase margin "
-        "of 45° and a delay margin of 20 ms at bottom, middle and top."
+        "Car and counterweight vibrate vertically on their hoist ropes, which excites a side of the rope with a similar period. "
+        "The chosen gains maximise the damping of this vibration, averaged over car positions, subject to a gain margin of 2, a "
+        "phase margin of 45° and a delay margin of 20 ms at the bottom, in the middle and at the top."
     )
     return [text, Table(head, rows), Picture("servo", draw_servo(result["servo"]))]
 
@@ -163,7 +160,7 @@ def _servo(result: Result) -> list[Block]:
 def _controller(result: Result) -> list[Block]:
     found = result["controller"]
     if not found:
-        return ["No kind of trip is so fast as asked for."]
+        return ["No family of profiles meets the requested travel time."]
     rows = []
     for trip, time, full in zip(result["trips"], found["times"], found["full"], strict=True):
         rows.append((_name(trip), f"{trip['present']['time']:.2f}", f"{time:.2f}", _pair(trip["present"]["full"]), _pair(full)))
@@ -175,7 +172,7 @@ def _controller(result: Result) -> list[Block]:
 
 
 def errors(trips: Sequence[Mapping[str, Any]]) -> list[float]:
-    """How much more the full model swings than the small rope, during and after, over the small rope's."""
+    """Relative errors of the swing of the reduced model, during and after all trips: full / reduced - 1."""
     told = [trip["present"] for trip in trips]
     told += [point[key] for trip in trips for point in trip["points"] for key in ("s_curve", "tuned")]
     return [full / small - 1.0 for one in told for small, full in zip(one["small"], one["full"], strict=True) if small > 0.0]
@@ -189,9 +186,8 @@ def _search(result: Result) -> list[Block]:
         one = trip["present"]
         rows.append((_name(trip), _pair(one["small"]), _pair(one["full"])))
     text = (
-        f"Full model against small rope over all {len(found)} swings judged: {100 * middle:+.0f} % in the middle, from "
-        f"{100 * found[0]:+.0f} to {100 * found[-1]:+.0f} %. rope_models.json holds the rope as state-space "
-        "models of python-control "
-        "at seven heights of the car."
+        f"Swing of the full model relative to the reduced model, {len(found)} values: median {100 * middle:+.0f} %, range "
+        f"{100 * found[0]:+.0f} to {100 * found[-1]:+.0f} %. rope_models.json contains the rope as state-space models of "
+        "python-control at seven car positions."
     )
-    return [text, Table(("present trip", "small rope: during/after [mm]", "full model"), rows)]
+    return [text, Table(("present trip", "reduced model: during/after [mm]", "full model"), rows)]
