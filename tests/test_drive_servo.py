@@ -83,6 +83,14 @@ def test_the_integral_waits_while_the_motor_is_at_its_limit() -> None:
     assert integral < 0.5
 
 
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_an_error_that_takes_the_motor_off_its_limit_is_integrated(sense: float) -> None:
+    """Else the integral that holds the motor at its limit would stay where it is, and the car would run past its landing."""
+    law, error, wound_up = design(DRIVE), -0.01, 1e3
+    found = law.force(sense * wound_up, TrajectoryPoint(0.0, sense * error), 0.0, 0.0, (-10.0, 10.0))
+    assert found == (sense * 10.0, pytest.approx(sense * (wound_up + law.speed.into * error), rel=1e-15))
+
+
 @pytest.mark.parametrize("position", POSITIONS)
 def test_margins_are_ample(position: float) -> None:
     found = margins(DRIVE, position)

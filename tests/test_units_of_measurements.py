@@ -1,0 +1,40 @@
+"""Units of measured channels, each against its definition."""
+
+import math
+
+import pandas as pd
+import pytest
+
+from comprope_system.identification.data.campaign import Channel
+from comprope_system.measurements.run_table import UNITS, read_trips
+
+# What one unit is in SI units: a turn is 2 pi rad, a degree the 360th part of it, a minute 60 s.
+SIZES = {
+    "m": 1.0, "cm": 0.01, "mm": 0.001, "um": 0.000001,
+    "rad/s": 1.0, "deg/s": 2.0 * math.pi / 360.0, "rpm": 2.0 * math.pi / 60.0, "1/min": 2.0 * math.pi / 60.0,
+    "N": 1.0, "kN": 1000.0,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("quantity", "unit"), [(quantity, unit) for quantity, units in UNITS.items() for unit in units])
+def test_a_unit_is_as_large_as_it_is_defined(quantity: str, unit: str) -> None:
+    channel = Channel(column="x", quantity=quantity, unit=unit)
+    assert channel.scale == pytest.approx(SIZES[unit], rel=1e-15)
+
+
+def test_every_quantity_has_units_of_its_own_kind() -> None:
+    kinds = {unit: kind for kind, units in enumerate((("m", "cm", "mm", "um"), ("rad/s", "deg/s", "rpm", "1/min"), ("N", "kN")))
+             for unit in units}  # fmt: skip
+    expected = {"displacement": 0, "velocity": 1, "force": 2, "tension": 2}
+    for quantity, units in UNITS.items():
+        assert {kinds[unit] for unit in units} == {expected[quantity.rsplit("_", 1)[-1]]}, quantity
+
+
+def test_the_counterweight_mirrors_the_car_in_the_shaft_or_follows_its_own_column(tmp_path) -> None:
+    time = [0.02 * k for k in range(100)]
+    table = pd.DataFrame({"time": time, "car_position": [3.0] * 100})
+    car, counterweight = read_trips(tmp_path / "run.csv", table, 14.0)
+    assert (float(car.position(1.0)), float(counterweight.position(1.0))) == pytest.approx((3.0, 11.0), abs=1e-9)
+    assert not counterweight.velocity(1.0)
+    _, own = read_trips(tmp_path / "run.csv", table.assign(counterweight_position=10.5), 14.0)
+    assert float(own.position(1.0)) == pytest.approx(10.5, abs=1e-9)
