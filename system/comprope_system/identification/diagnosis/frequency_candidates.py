@@ -87,13 +87,13 @@ def _beside(plant: Floats, columns: Floats) -> Floats:
     return np.asarray(columns - plant @ (plant.T @ columns))
 
 
-MOST = 3
-LOWEST, HIGHEST = 0.05, 3.0  # Hz
+MOST_PEAKS = 3
+LOWEST_PEAK, HIGHEST_PEAK = 0.05, 3.0  # Hz
 
 
 def frequencies(problem: Problem, predictions: Predictions) -> tuple[float, ...]:
     """The frequencies [Hz] of the highest peaks in the residual of the lateral channels, over all runs."""
-    grid = np.linspace(LOWEST, HIGHEST, 600)
+    grid = np.linspace(LOWEST_PEAK, HIGHEST_PEAK, 600)
     power = np.zeros(len(grid))
     for run in problem.runs:
         measured = referred(run.values, run, problem.campaign.channels)
@@ -105,5 +105,5 @@ def frequencies(problem: Problem, predictions: Predictions) -> tuple[float, ...]
                 t, x = run.time[known][::every], left[known][::every]
                 power += lombscargle(t, x - x.mean(), 2.0 * np.pi * grid) / max(float(np.var(x)), 1e-300)
     peaks, _ = find_peaks(power)
-    highest = sorted(peaks, key=lambda k: -power[k])[:MOST]
+    highest = sorted(peaks, key=lambda k: -power[k])[:MOST_PEAKS]
     return tuple(round(float(grid[k]), 4) for k in highest)
