@@ -8,8 +8,8 @@ import pytest
 from comprope_system.identification.data.campaign import Channel, load_campaign
 from comprope_system.identification.data.whitening import sample_noise
 from comprope_system.identification.diagnosis.diagnose import diagnose
-from comprope_system.identification.diagnosis.held_out_validation import far_off, judge
-from comprope_system.identification.estimation.model_score import strain
+from comprope_system.identification.diagnosis.held_out_validation import implausible_parameters, validate
+from comprope_system.identification.estimation.model_score import prior_cost
 from comprope_system.parallel.executors import threads
 
 from . import virtual_lift
@@ -38,7 +38,7 @@ def test_a_fault_of_one_channel_is_the_instruments(tmp_path, executor, effect, v
     best = found.ranking[0]
     # Noise of 0.3 mm leaves a gain uncertain by a per cent or two, a drift by less.
     assert best.hypothesis.parameters(best.fitted.effect_coefficients)[key] == pytest.approx(value, rel=0.05)
-    assert told is None or any(told in one for one in judge(found, executor).remarks)
+    assert told is None or any(told in one for one in validate(found, executor).remarks)
 
 
 def test_a_load_cell_that_shows_too_little_is_no_lighter_sheave(tmp_path, executor, monkeypatch):
@@ -47,14 +47,14 @@ def test_a_load_cell_that_shows_too_little_is_no_lighter_sheave(tmp_path, execut
     folder = virtual_lift.campaign(tmp_path / "weak", {"effects.sensor_gain.weight": 0.87})
     campaign = load_campaign(folder)
     found = diagnose(campaign, executor)
-    assert found.none.misfit < 1.2 * len(found.problem.data)
-    assert strain(found.none.coefficients) > strain(found.ranking[0].fitted.coefficients) + 7.0
+    assert found.baseline.chi_square < 1.2 * len(found.problem.data)
+    assert prior_cost(found.baseline.coefficients) > prior_cost(found.ranking[0].fitted.coefficients) + 7.0
     assert (found.verdict, found.kind) == ("sensor_gain", "instrument")
     assert found.ranking[0].fitted.point.effects["effects.sensor_gain.weight"] == pytest.approx(0.87, rel=0.01)
     unexplained = diagnose(campaign, executor, without=("sensor_gain",))
     assert unexplained.kind == "unknown_effect"
-    assert far_off(unexplained)[0][:2] == ("sheave.mass", pytest.approx(-0.13, abs=0.01))
-    assert far_off(found) == []
+    assert implausible_parameters(unexplained)[0][:2] == ("sheave.mass", pytest.approx(-0.13, abs=0.01))
+    assert implausible_parameters(found) == []
 
 
 def test_a_stated_noise_that_the_rest_contradicts_is_not_believed():

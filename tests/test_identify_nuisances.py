@@ -8,8 +8,8 @@ from comprope_system.identification.comparison.compare import compare
 from comprope_system.identification.comparison.nrmse import channel_error
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.diagnose import diagnose
-from comprope_system.identification.estimation.parameter_estimates import plant_results
-from comprope_system.identification.hypotheses.plant_parameters import CLOCK, NUISANCES
+from comprope_system.identification.estimation.parameter_estimates import plant_estimates
+from comprope_system.identification.hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
 from comprope_system.identification.model_updating.add_effect import add, prepare
 from comprope_system.identification.prediction.replay import instrument
 from comprope_system.parallel.executors import threads
@@ -39,10 +39,10 @@ def test_a_late_clock_is_found_and_is_no_effect(tmp_path, executor):
         np.savetxt(folder / file, np.column_stack([table[name] for name in table.dtype.names]), delimiter=",", header=lines[0],
                    comments="", fmt="%.5f")  # fmt: skip
     found = prepare(load_campaign(folder), executor).fitted
-    late = found.coefficients[[one.name for one in NUISANCES].index(CLOCK)]
+    late = found.coefficients[[one.name for one in PLANT_PARAMETERS].index(CLOCK)]
     # A record of 9 s knows the instant to about a millisecond.
     assert abs(late - LATE) < 0.003
-    assert found.misfit < 1.2 * len(found.by)
+    assert found.chi_square < 1.2 * len(found.jacobian)
 
 
 @pytest.fixture(scope="module")
@@ -61,16 +61,16 @@ def test_a_rope_of_quite_another_mass_is_no_effect(tmp_path, executor, monkeypat
     """Its swings come out of step with the model's before a record ends, from where derivatives alone do not lead back."""
     monkeypatch.setitem(virtual_lift.PLANT, "rope.mass_per_length", mass)
     ground = prepare(load_campaign(virtual_lift.campaign(tmp_path / "heavy", {})), executor)
-    assert ground.begun.misfit > 100.0 * len(ground.problem.data)
-    assert ground.fitted.misfit < 1.2 * len(ground.problem.data)
-    assert plant_results(ground.campaign, ground.fitted)["rope.mass_per_length"].value == pytest.approx(mass, rel=0.005)
+    assert ground.initial_fit.chi_square > 100.0 * len(ground.problem.data)
+    assert ground.fitted.chi_square < 1.2 * len(ground.problem.data)
+    assert plant_estimates(ground.campaign, ground.fitted)["rope.mass_per_length"].value == pytest.approx(mass, rel=0.005)
 
 
 def test_each_run_may_begin_with_another_angle_of_the_sheave(turned, executor):
     found = diagnose(turned, executor)
     assert found.verdict == "sheave_eccentricity"
     best = found.ranking[0].fitted
-    assert best.misfit < 1.3 * len(found.problem.data)
+    assert best.chi_square < 1.3 * len(found.problem.data)
     assert abs(best.point.effects[RUNOUT] - 2e-3) < 5e-5
     told = {file: best.point.effects[PHASE] + own[PHASE] for file, own in best.point.shifts.items()}
     assert set(told) == {"up.csv", "down_light.csv"}  # the run held out is not fitted
@@ -83,7 +83,7 @@ def test_added_the_effect_acts_in_each_run_from_its_own_angle_on(turned, executo
     fitted = [(before, run) for before, run in zip(found.before.runs, found.after.runs, strict=True) if run.role == "fit"]
     assert all(run.nrmse < 0.1 * before.nrmse for before, run in fitted)
     size = found.effects[RUNOUT]
-    assert size.value == pytest.approx(2e-3, abs=5e-5) and size.deviation < 5e-5
+    assert size.value == pytest.approx(2e-3, abs=5e-5) and size.standard_error < 5e-5
 
 
 def test_an_effect_is_found_on_a_rope_of_quite_another_mass(tmp_path, executor, monkeypatch):
@@ -91,9 +91,9 @@ def test_an_effect_is_found_on_a_rope_of_quite_another_mass(tmp_path, executor, 
     monkeypatch.setitem(virtual_lift.PLANT, "rope.mass_per_length", 1.0)
     found = diagnose(load_campaign(virtual_lift.campaign(tmp_path / "light", {RUNOUT: 2e-3, PHASE: 0.7})), executor)
     best = found.ranking[0].fitted
-    assert found.verdict == "sheave_eccentricity" and best.misfit < 1.2 * len(found.problem.data)
+    assert found.verdict == "sheave_eccentricity" and best.chi_square < 1.2 * len(found.problem.data)
     assert best.point.effects[RUNOUT] == pytest.approx(2e-3, rel=0.03)
-    assert plant_results(found.campaign, best)["rope.mass_per_length"].value == pytest.approx(1.0, rel=0.005)
+    assert plant_estimates(found.campaign, best)["rope.mass_per_length"].value == pytest.approx(1.0, rel=0.005)
 
 
 def test_samples_far_from_their_neighbours_are_no_error_of_the_model(tmp_path, executor):

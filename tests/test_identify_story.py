@@ -18,15 +18,15 @@ from comprope_system.identification.comparison.compare import compare
 from comprope_system.identification.comparison.error_metrics import ORDERS
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.diagnose import diagnose
-from comprope_system.identification.diagnosis.experiment_design import candidates, rivals
-from comprope_system.identification.diagnosis.held_out_validation import judge, to_json
-from comprope_system.identification.hypotheses.effect_hypotheses import of_effect, together
-from comprope_system.identification.hypotheses.model_effects import shapes_of
-from comprope_system.identification.hypotheses.plant_parameters import NUISANCES
+from comprope_system.identification.diagnosis.experiment_design import best_two_fits, candidate_runs
+from comprope_system.identification.diagnosis.held_out_validation import to_json, validate
+from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect
+from comprope_system.identification.hypotheses.model_effects import shape_hypotheses
+from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.model_updating import stepwise_selection as steps
 from comprope_system.identification.model_updating.add_effect import beside_the_model, heading, prepare
 from comprope_system.identification.model_updating.stepwise_selection import journey
-from comprope_system.identification.residuals.residual_correlation import clues
+from comprope_system.identification.residuals.residual_correlation import residual_correlations
 from comprope_system.parallel.executors import threads
 
 from . import virtual_lift
@@ -57,9 +57,9 @@ def travelled(campaign, executor):
 
 
 @pytest.fixture(scope="module")
-def judged(travelled, executor):
+def validated(travelled, executor):
     """The first diagnosis, judged on all runs."""
-    return judge(travelled.diagnoses[0], executor)
+    return validate(travelled.diagnoses[0], executor)
 
 
 @pytest.fixture(scope="module")
@@ -83,8 +83,8 @@ def test_the_model_fails_on_the_axle_once_a_turn(comparison):
 # -- this is missing ---------------------------------------------------------------------------------
 
 
-def test_the_diagnosis_names_what_is_missing(judged):
-    found = to_json(judged)
+def test_the_diagnosis_names_what_is_missing(validated):
+    found = to_json(validated)
     assert (found["verdict"], found["verdict_kind"]) == ("sheave_eccentricity", "known_effect")
     top = found["ranking"][0]
     assert top["effect"] == "sheave_eccentricity" and top["probability"] > 0.95 and not top["estimated"]
@@ -94,8 +94,8 @@ def test_the_diagnosis_names_what_is_missing(judged):
     assert top["validate_error_after"] < 0.1 * top["validate_error_before"]
 
 
-def test_the_result_has_the_form_that_was_agreed(judged):
-    found = json.loads(json.dumps(to_json(judged), allow_nan=False))
+def test_the_result_has_the_form_that_was_agreed(validated):
+    found = json.loads(json.dumps(to_json(validated), allow_nan=False))
     assert {"verdict", "verdict_kind", "ranking", "indistinguishable"} <= set(found)
     keys = {"effect", "probability", "error_before", "error_after", "validate_error_before", "validate_error_after", "parameters"}
     assert all(keys <= set(entry) for entry in found["ranking"])
@@ -111,20 +111,20 @@ def test_with_the_effect_ruled_out_none_of_the_known_explains_it(campaign, execu
     assert "sheave_eccentricity" not in found.probabilities
 
 
-def test_without_the_effect_the_residual_points_to_the_sheave(judged):
+def test_without_the_effect_the_residual_points_to_the_sheave(validated):
     """What is left is locked to the sheave's angle, once a turn."""
-    first = clues(judged.diagnosis.campaign, judged.refitted.predictions)[0]
+    first = residual_correlations(validated.diagnosis.campaign, validated.refitted.predictions)[0]
     assert first.coordinate == "the sheave's angle" and first.peak == pytest.approx(1.0, abs=0.05)
     assert first.share > 0.3
 
 
-def test_rivals_and_runs_that_would_separate_them(judged):
-    (best, _), (second, _) = rivals(judged.diagnosis)
+def test_rivals_and_runs_that_would_separate_them(validated):
+    (best, _), (second, _) = best_two_fits(validated.diagnosis)
     assert best == "sheave_eccentricity" and second != best
-    for proposal, run in candidates(judged.diagnosis.campaign):
+    for proposal, run in candidate_runs(validated.diagnosis.campaign):
         assert run.trip.position(run.time[-1]) == pytest.approx(proposal.end)
         assert np.abs(run.trip.velocity(run.time)).max() == pytest.approx(proposal.speed, rel=1e-3)
-        height = judged.diagnosis.campaign.model.shaft.height
+        height = validated.diagnosis.campaign.model.shaft.height
         assert min(proposal.start, proposal.end) >= 0.0 and max(proposal.start, proposal.end) <= height
 
 
@@ -140,7 +140,7 @@ def test_added_the_error_falls_on_the_run_that_was_not_fitted(better):
 def test_values_come_with_their_uncertainty(better):
     size = better.effects["effects.sheave_eccentricity.eccentricity"]
     assert size.low < size.value < size.high
-    assert size.value == pytest.approx(2e-3, rel=0.03) and size.deviation < 1e-4
+    assert size.value == pytest.approx(2e-3, rel=0.03) and size.standard_error < 1e-4
     stiffness = better.plant["rope.bending_stiffness"]
     assert stiffness.before == 20.0 and stiffness.value == pytest.approx(21.2, rel=0.05)
 
@@ -162,7 +162,7 @@ def test_what_is_there_is_fitted_again_and_not_added_twice(better, executor):
     ground = prepare(campaign, executor)
     values = ground.fitted.point.effects
     assert values["effects.sheave_eccentricity.eccentricity"] == pytest.approx(2e-3, rel=0.03)
-    assert ground.fitted.misfit < 1.1 * better.fitted.misfit
+    assert ground.fitted.chi_square < 1.1 * better.fitted.chi_square
 
 
 def test_the_journey_ends_there_and_tells_what_each_step_bought(travelled):
@@ -178,10 +178,10 @@ def test_the_journey_ends_there_and_tells_what_each_step_bought(travelled):
 
 def test_an_effect_with_its_shape_freed_is_one_step(monkeypatch):
     """Hysteresis with its yield curvature fitted as well stands as two parts in the hypothesis and is added once."""
-    effect = of_effect(REGISTRY["bending_hysteresis"], ())[0]
-    whole = together(effect, *shapes_of((effect,), 9.0))
-    coefficients = np.arange(len(NUISANCES) + 2.0)
-    own = [float(one) for one in coefficients[len(NUISANCES) :]]
+    effect = hypotheses_of_effect(REGISTRY["bending_hysteresis"], ())[0]
+    whole = combine(effect, *shape_hypotheses((effect,), 9.0))
+    coefficients = np.arange(len(PLANT_PARAMETERS) + 2.0)
+    own = [float(one) for one in coefficients[len(PLANT_PARAMETERS) :]]
     best = SimpleNamespace(hypothesis=whole, coefficients=coefficients, effect_coefficients=own)
     found = SimpleNamespace(ranking=[SimpleNamespace(fitted=best)])
     added = []

@@ -13,15 +13,15 @@ from scipy.interpolate import BSpline
 from comprope.rope.effects import REGISTRY, user_effects
 from comprope.rope.model_file import with_changes
 from comprope_system.identification.data.campaign import Channel, load_campaign
-from comprope_system.identification.estimation.gauss_newton import refine
-from comprope_system.identification.estimation.weighted_least_squares import pose
-from comprope_system.identification.hypotheses.plant_parameters import NUISANCES
+from comprope_system.identification.estimation.gauss_newton import gauss_newton
+from comprope_system.identification.estimation.weighted_least_squares import build_problem
+from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.prediction import replay
-from comprope_system.identification.prediction.parameter_point import Point, gathered, submit
+from comprope_system.identification.prediction.parameter_point import ParameterPoint, collect_predictions, submit_replays
 from comprope_system.identification.reporting import figures, tables
 from comprope_system.identification.residuals.force_locations import KEY, PROBE, probed
-from comprope_system.identification.residuals.input_estimation import residual_force
-from comprope_system.identification.residuals.regularised_deconvolution import estimate, prior_root
+from comprope_system.identification.residuals.input_estimation import estimate_residual_force
+from comprope_system.identification.residuals.regularised_deconvolution import deconvolve, prior_root
 from comprope_system.parallel.executors import threads
 from comprope_system.report.json_output import plain
 
@@ -47,10 +47,12 @@ def found_in(folder, measured):
         another = Channel(column="car_mid", sensor="car_mid", **virtual_lift.LASER)
         patch.setattr(virtual_lift, "CHANNELS", virtual_lift.CHANNELS | {"car_mid": another})
         campaign = load_campaign(virtual_lift.campaign(folder, {}))
-    runs, start = campaign.of_role("fit"), np.zeros(len(NUISANCES))
+    runs, start = campaign.of_role("fit"), np.zeros(len(PLANT_PARAMETERS))
     with threads() as executor:
-        problem = pose(campaign, runs, executor, gathered(runs, submit(campaign, runs, Point(), executor)))
-        return campaign, residual_force(problem, refine(problem, None, start, Point()))
+        problem = build_problem(
+            campaign, runs, executor, collect_predictions(runs, submit_replays(campaign, runs, ParameterPoint(), executor))
+        )
+        return campaign, estimate_residual_force(problem, gauss_newton(problem, None, start, ParameterPoint()))
 
 
 def moved(move):
@@ -112,12 +114,12 @@ def turned(tmp_path_factory):
 def require(found, quantity, truth, close, twin=None):
     """The place, or its twin, is first and 0.1 ahead; its course is `truth(run, time)` but for its level, `close` to the rms."""
     campaign, force = found
-    first = force.suspects[: 2 if twin else 1]
-    assert {one.place.quantity for one in first} == {quantity, twin} - {None}
-    right = next(one for one in first if one.place.quantity == quantity)
-    assert right.share > 0.5 and force.suspects[len(first)].share < right.share - 0.1
+    first = force.estimates[: 2 if twin else 1]
+    assert {one.location.quantity for one in first} == {quantity, twin} - {None}
+    right = next(one for one in first if one.location.quantity == quantity)
+    assert right.share > 0.5 and force.estimates[len(first)].share < right.share - 0.1
     for run in campaign.of_role("fit"):
-        course = right.courses[run.file]
+        course = right.histories[run.file]
         expected = truth(run, course.time)
         assert np.std(course.value - expected) < close * np.std(expected)
 
@@ -134,7 +136,7 @@ def test_a_push_on_the_cars_end_is_found_there(pushed):
 def test_a_motion_of_the_counterweights_end_is_found_there(lagging):
     # The car's end lifts the sheave as the counterweight's does: the turning differs by some 3 mrad/s, its noise is 10.
     require(lagging, "counterweight_end_up", lambda run, time: STRETCH * run.trip.acceleration(time), 0.3, twin="car_end_up")
-    assert "hardly tell it from" in lagging[1].told()
+    assert "hardly tell it from" in lagging[1].sentence()
 
 
 def test_a_torque_on_the_sheave_is_found_there(turned):
@@ -145,12 +147,12 @@ def test_a_torque_on_the_sheave_is_found_there(turned):
 
 def test_what_it_follows_is_told(pushed, lagging):
     for (campaign, force), follows in ((pushed, "the car's position"), (lagging, "the car's acceleration")):
-        assert f"it follows {follows}" in force.told() and force.suspects[0].place.name[2:] in force.told()
+        assert f"it follows {follows}" in force.sentence() and force.estimates[0].location.name[2:] in force.sentence()
         told = json.loads(json.dumps(plain(force.to_json()), allow_nan=False))
         assert [one["share"] for one in told] == sorted((one["share"] for one in told), reverse=True)
         assert told[0]["locked_to"] and {"place", "share", "size", "unit", "courses"} <= set(told[0])
         assert len(tables.force_table(force).rows) == len(told)
-        assert figures.force_bars(force).axes and len(figures.force_courses(campaign, force).axes) == 4
+        assert figures.force_bars(force).axes and len(figures.force_histories(campaign, force).axes) == 4
 
 
 def test_the_estimate_of_a_known_course():
@@ -161,10 +163,10 @@ def test_the_estimate_of_a_known_course():
     r = response @ course + random.standard_normal(n)
     fold = np.arange(n) // 20 % 5
     rows, plant = np.ones((1, n), bool), np.zeros((n, 1))
-    right = estimate([response], plant, r, rows, fold)
-    wrong = estimate([other], plant, r, rows, fold)
+    right = deconvolve([response], plant, r, rows, fold)
+    wrong = deconvolve([other], plant, r, rows, fold)
     assert right.missed < 1.2 * n  # noise alone would leave n
-    assert np.corrcoef(right.courses[0], course)[0, 1] > 0.9
+    assert np.corrcoef(right.histories[0], course)[0, 1] > 0.9
     assert wrong.missed > 0.9 * float(r @ r)
 
 

@@ -1,7 +1,7 @@
 """What the commands compare, diagnose, add and journey do: read, compute, print, write."""
 
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,9 +16,8 @@ from comprope.rope.model_file import dump
 from ..parallel.executors import processes, threads
 from ..report.json_output import save_json
 from .data.campaign import Campaign, load_campaign
+from .progress import ProgressCallback
 from .reporting import formatting, sentences, tables
-
-Say = Callable[[str], None]
 
 
 @dataclass(frozen=True)
@@ -39,8 +38,8 @@ def compare(request: Request) -> Any:
     from .comparison.data_quality import remarks
 
     campaign = _begin(request)
-    with progress() as say, threads() as executor:
-        say("driving the model as the car was driven")
+    with progress_display() as report_progress, threads() as executor:
+        report_progress("driving the model as the car was driven")
         found = comparison_of(campaign, executor)
     told = remarks(campaign, found.predictions)
     errors = formatting.plain_table(tables.error_table(found))
@@ -58,53 +57,57 @@ def compare(request: Request) -> Any:
 def diagnose(request: Request) -> Any:
     """`comprope diagnose`."""
     from .diagnosis.diagnose import diagnose as diagnosis_of
-    from .diagnosis.experiment_design import next_runs, unsettled
-    from .diagnosis.held_out_validation import judge, to_json
+    from .diagnosis.experiment_design import is_inconclusive, rank_candidate_runs
+    from .diagnosis.held_out_validation import to_json, validate
     from .hypotheses.model_effects import effect_values, require_effects
-    from .prediction.parameter_point import Point
-    from .residuals.input_estimation import residual_force
-    from .residuals.residual_correlation import clues, standing_of
+    from .prediction.parameter_point import ParameterPoint
+    from .residuals.input_estimation import estimate_residual_force
+    from .residuals.residual_correlation import residual_correlations, rest_ratio_of
 
     campaign = _begin(request)
     require_effects(request.without)
-    base = Point(effects=effect_values(campaign.model))
-    with progress() as say, processes(request.jobs) as executor:
-        found = diagnosis_of(campaign, executor, say, base, request.without)
-        say("the runs held out")
-        judged = judge(found, executor, base)
-        say("the next run to measure")
-        proposals = next_runs(found, executor) if unsettled(found) else []
-        force = residual_force(found.problem, found.none, say) if found.kind == "unknown_effect" else None
-    left = [] if found.kind == "adequate" else clues(campaign, judged.refitted.predictions)
-    standing = standing_of(campaign, judged.refitted.predictions)
-    _tell(*_diagnosed(judged, left, standing, force, proposals))
+    base = ParameterPoint(effects=effect_values(campaign.model))
+    with progress_display() as report_progress, processes(request.jobs) as executor:
+        found = diagnosis_of(campaign, executor, report_progress, base, request.without)
+        report_progress("the runs held out")
+        validated = validate(found, executor, base)
+        report_progress("the next run to measure")
+        proposals = rank_candidate_runs(found, executor) if is_inconclusive(found) else []
+        force = (
+            estimate_residual_force(found.problem, found.baseline, report_progress) if found.kind == "unknown_effect" else None
+        )
+    left = [] if found.kind == "adequate" else residual_correlations(campaign, validated.refitted.predictions)
+    rest_ratio = rest_ratio_of(campaign, validated.refitted.predictions)
+    _tell(*_diagnosed(validated, left, rest_ratio, force, proposals))
     if request.json:
-        locked = [{"coordinate": one.coordinate, "share": one.share, "peak": one.peak} for one in left]
-        told = {"clues": locked, "next_runs": [one.to_json() for one in proposals[:5]]}
-        save_json(request.json, to_json(judged) | told | ({"residual_force": force.to_json()} if force else {}))
+        correlations_of = [{"coordinate": one.coordinate, "share": one.share, "peak": one.peak} for one in left]
+        told = {"clues": correlations_of, "next_runs": [one.to_json() for one in proposals[:5]]}
+        save_json(request.json, to_json(validated) | told | ({"residual_force": force.to_json()} if force else {}))
     if request.report:
         from .reporting.html_pages import save_diagnosis
 
-        save_diagnosis(request.report, judged, left, standing, force, proposals)
+        save_diagnosis(request.report, validated, left, rest_ratio, force, proposals)
     _end(request)
-    return judged
+    return validated
 
 
-def _diagnosed(judged: Any, left: Sequence[Any], standing: float, force: Any, proposals: Sequence[Any]) -> Iterator[list[str]]:
+def _diagnosed(
+    validated: Any, left: Sequence[Any], rest_ratio: float, force: Any, proposals: Sequence[Any]
+) -> Iterator[list[str]]:
     """What is printed of a diagnosis, paragraph by paragraph."""
     from .diagnosis.held_out_validation import full_name
-    from .residuals.residual_correlation import hints
+    from .residuals.residual_correlation import correlation_sentences
 
-    found = judged.diagnosis
-    yield formatting.wrapped(*sentences.verdict(judged))
-    yield formatting.plain_table(tables.ranking_table(judged, tables.SHOWN))
-    yield _listed("About the data:", judged.remarks)
+    found = validated.diagnosis
+    yield formatting.wrapped(*sentences.verdict(validated))
+    yield formatting.plain_table(tables.ranking_table(validated, tables.SHOWN))
+    yield _listed("About the data:", validated.remarks)
     if found.kind == "unknown_effect":
-        yield _listed("What is left:", hints(list(left), standing))
+        yield _listed("What is left:", correlation_sentences(list(left), rest_ratio))
     if force:
-        yield [*formatting.wrapped(f"{force.told()}."), *formatting.plain_table(tables.force_table(force, tables.SHOWN))]
+        yield [*formatting.wrapped(f"{force.sentence()}."), *formatting.plain_table(tables.force_table(force, tables.SHOWN))]
     if proposals:
-        yield [f"Next run to measure: {proposals[0].told()}."]
+        yield [f"Next run to measure: {proposals[0].sentence()}."]
     if found.verdict:
         command = "comprope --allow-code add" if found.campaign.model.own_effects else "comprope add"
         yield [f"To add it: {command} {found.campaign.folder} {full_name(found.ranking[0].hypothesis)} --out MODEL.toml"]
@@ -112,14 +115,14 @@ def _diagnosed(judged: Any, left: Sequence[Any], standing: float, force: Any, pr
 
 def add(request: Request, effect: str) -> Any:
     """`comprope add`."""
-    from .hypotheses.model_effects import alternatives
+    from .hypotheses.model_effects import hypotheses_named
     from .model_updating.add_effect import add as add_to
     from .model_updating.add_effect import heading
 
     campaign = _begin(request)
-    alternatives(effect, campaign, ())
-    with progress() as say, processes(request.jobs) as executor:
-        found = add_to(campaign, effect, executor, say)
+    hypotheses_named(effect, campaign, ())
+    with progress_display() as report_progress, processes(request.jobs) as executor:
+        found = add_to(campaign, effect, executor, report_progress)
     stages = {"as it stood": found.before, "plant refitted": found.refitted, "with it": found.after}
     _tell(
         formatting.wrapped(sentences.added(found)),
@@ -144,8 +147,8 @@ def journey(request: Request) -> Any:
     from .model_updating.stepwise_selection import journey as travel
 
     campaign = _begin(request)
-    with progress() as say, processes(request.jobs) as executor:
-        found = travel(campaign, executor, say)
+    with progress_display() as report_progress, processes(request.jobs) as executor:
+        found = travel(campaign, executor, report_progress)
     told = (tables.bought_table(found), tables.value_table(found.added.effects))
     _tell(formatting.wrapped(sentences.travelled(found)), *map(formatting.plain_table, told))
     if request.model:
@@ -182,7 +185,7 @@ def _tell(*paragraphs: list[str]) -> None:
 
 
 @contextmanager
-def progress() -> Iterator[Say]:
+def progress_display() -> Iterator[ProgressCallback]:
     """On a terminal, what is being done and for how long."""
     console = Console(file=sys.stderr)
     parts = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())

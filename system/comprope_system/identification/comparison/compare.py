@@ -17,8 +17,8 @@ from ...report.json_output import plain
 from ..data.campaign import Campaign, Channel, Run
 from ..data.trip_phases import phases
 from ..data.whitening import sample_noise
-from ..prediction.parameter_point import Point, Predictions, gathered, submit
-from ..prediction.replay import referred
+from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
+from ..prediction.replay import relative_to_rest
 from .error_metrics import BANDS, LEAST, ORDERS, SpragueGeers, by_band, by_bins, by_order, rms, sprague_geers
 from .nrmse import nrmse, overall, trusted
 
@@ -121,7 +121,7 @@ class Comparison:
 
 
 def compare(
-    campaign: Campaign, executor: Executor, point: Point | None = None, known: Predictions | None = None
+    campaign: Campaign, executor: Executor, point: ParameterPoint | None = None, known: Predictions | None = None
 ) -> Comparison:
     """Set every run against what was measured, replayed with the campaign's model or at another point.
 
@@ -129,8 +129,8 @@ def compare(
     """
     files = {file for file, _ in known or {}}
     runs = [run for run in campaign.runs if run.file not in files]
-    jobs = submit(campaign, runs, point or Point(), executor)
-    return compared(campaign, gathered(runs, jobs) | (known or {}))
+    jobs = submit_replays(campaign, runs, point or ParameterPoint(), executor)
+    return compared(campaign, collect_predictions(runs, jobs) | (known or {}))
 
 
 def compared(campaign: Campaign, predictions: Predictions) -> Comparison:
@@ -143,7 +143,7 @@ def compared(campaign: Campaign, predictions: Predictions) -> Comparison:
 
 
 def _run(campaign: Campaign, run: Run, predictions: Predictions) -> RunComparison:
-    measured = referred(run.values, run, campaign.channels)
+    measured = relative_to_rest(run.values, run, campaign.channels)
     height = campaign.model.shaft.height
     angle = sheave_angle(campaign, run)
     channels = [

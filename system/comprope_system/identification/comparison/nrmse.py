@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..data.campaign import Campaign, Run
 from ..data.whitening import outliers, sample_noise
 from ..prediction.parameter_point import Predictions
-from ..prediction.replay import referred
+from ..prediction.replay import relative_to_rest
 
 Floats = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ def nrmse(campaign: Campaign, runs: Sequence[Run], predictions: Predictions) -> 
     """The error of all channels of some runs."""
     found = []
     for run in runs:
-        measured = referred(run.values, run, campaign.channels)
+        measured = relative_to_rest(run.values, run, campaign.channels)
         for column, channel in campaign.channels.items():
             noise = sample_noise(run, channel, measured[column])
             found.append(channel_error(measured[column], predictions[run.file, column], noise))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..data.campaign import Campaign, Channel, Run
 from ..data.whitening import sample_noise
 from ..prediction.parameter_point import Predictions
-from ..prediction.replay import referred
+from ..prediction.replay import relative_to_rest
 
 Floats = NDArray[np.float64]
 VISIBLE = 3.0  # times the noise that a channel must vary by to be judged
@@ -50,7 +50,7 @@ class Record:
 def records_of(campaign: Campaign, predictions: Predictions) -> Iterator[Record]:
     """Every channel of every run."""
     for run in campaign.runs:
-        measured = referred(run.values, run, campaign.channels)
+        measured = relative_to_rest(run.values, run, campaign.channels)
         for column, channel in campaign.channels.items():
             yield Record(run, channel, measured[column], predictions[run.file, column])
 

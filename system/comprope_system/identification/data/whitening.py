@@ -26,7 +26,7 @@ ENOUGH = 40  # samples at rest that may contradict a stated noise
 
 
 @dataclass(frozen=True)
-class Part:
+class WhitenedChannel:
     """One channel of one run: which samples fall into which bin, and how to whiten the bins.
 
     `of` (samples,) is each sample's bin or -1; `factor` (bins, bins) is the lower Cholesky factor of the bins'
@@ -52,7 +52,7 @@ class Part:
         return np.asarray(solve_triangular(self.factor, means, lower=True))
 
 
-def part(run: Run, channel: Channel, value: Floats, visible: NDArray[np.bool_]) -> Part | None:
+def whiten_channel(run: Run, channel: Channel, value: Floats, visible: NDArray[np.bool_]) -> WhitenedChannel | None:
     """Bin and weigh one channel of a run; None where it holds too little. `value` is referred as the channel is."""
     noise = sample_noise(run, channel, value)
     good = np.isfinite(value) & visible
@@ -71,7 +71,7 @@ def part(run: Run, channel: Channel, value: Floats, visible: NDArray[np.bool_]) 
     if channel.reference == "rest":  # the mean at rest that was taken off is itself uncertain
         covariance += noise**2 / max(run.rest.sum(), 1)
     data = np.bincount(of_good, value[good]) / count
-    return Part(run.file, channel.column, of, count, cholesky(covariance, lower=True), data, noise, discrepancy)
+    return WhitenedChannel(run.file, channel.column, of, count, cholesky(covariance, lower=True), data, noise, discrepancy)
 
 
 def sample_noise(run: Run, channel: Channel, value: Floats) -> float:
@@ -108,6 +108,6 @@ def outliers(value: Floats, noise: float, window: int = 11) -> NDArray[np.bool_]
     return np.asarray(np.abs(value - middle) > OUTLIER * np.maximum(spread, noise))
 
 
-def stack(parts: list[Part], values: Mapping[tuple[str, str], Floats]) -> Floats:
+def stack(whitened_channels: list[WhitenedChannel], values: Mapping[tuple[str, str], Floats]) -> Floats:
     """Whitened means of all parts, one after the other; `values[(run, column)]` are in SI units per sample."""
-    return np.concatenate([one.whiten(one.means(values[one.run, one.column])) for one in parts])
+    return np.concatenate([one.whiten(one.means(values[one.run, one.column])) for one in whitened_channels])

@@ -1,7 +1,6 @@
-"""Every effect as a rival for what the data show: fitted on the full model where that is worth its time, else by its linear look.
-"""
+"""Fit of every effect: on the full nonlinear model where that is worth its time, else as linear screening predicts it."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -9,18 +8,18 @@ import numpy as np
 
 from comprope.errors import SimulationError
 
-from ..estimation.gauss_newton import Fitted, refine
-from ..estimation.initial_guess import best_start
-from ..estimation.mass_search import LEFT, brought_into_step
-from ..estimation.model_score import price, score
-from ..estimation.weighted_least_squares import Problem
-from ..hypotheses.effect_hypotheses import Hypothesis, together
-from ..hypotheses.model_effects import shapes_of
-from ..hypotheses.plant_parameters import NUISANCES
-from ..prediction.parameter_point import Point
-from .linear_screening import Screened, alike, screen
+from ..estimation.gauss_newton import FitResult, gauss_newton
+from ..estimation.initial_guess import best_initial_guess
+from ..estimation.mass_search import LEFT, search_rope_mass
+from ..estimation.model_score import complexity_penalty, log_score
+from ..estimation.weighted_least_squares import LeastSquaresProblem
+from ..hypotheses.effect_hypotheses import Hypothesis, combine
+from ..hypotheses.model_effects import shape_hypotheses
+from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.parameter_point import ParameterPoint
+from ..progress import ProgressCallback
+from .linear_screening import ScreenedHypothesis, indistinguishable, screen_hypotheses
 
-Say = Callable[[str], None]
 REFINED = 4  # hypotheses that are refined on the full model, if no other one leads
 RIVAL = 1.2  # times the best fit's misfit above which a fit is not worth its time
 PROMISING = 0.1  # of what the best linear look explains: the least that is worth a fit
@@ -33,11 +32,11 @@ NEAR = 1.15  # times the best fit's misfit: near enough to it
 WORTH = 0.97  # of its misfit that it must fall to
 
 
-class Trial(NamedTuple):
+class CandidateFit(NamedTuple):
     """An effect's linear look, its fit, and whether that is one on the full model."""
 
-    seen: Screened
-    fitted: Fitted
+    screening: ScreenedHypothesis
+    fitted: FitResult
     refined: bool
 
     @property
@@ -46,125 +45,175 @@ class Trial(NamedTuple):
         assert self.fitted.hypothesis is not None
         return self.fitted.hypothesis
 
-    def score(self, count: int) -> float:
+    def log_score(self, count: int) -> float:
         """Score of the fit to `count` data."""
-        return score(self.fitted.misfit, count, price(self.hypothesis, self.seen.alternatives) + self.fitted.strain)
+        return log_score(
+            self.fitted.chi_square,
+            count,
+            complexity_penalty(self.hypothesis, self.screening.alternatives) + self.fitted.prior_cost,
+        )
 
 
-def rivals(problem: Problem, origin: Point, screened: list[Screened], none: Fitted, say: Say) -> list[Trial]:
+def fit_candidates(
+    problem: LeastSquaresProblem,
+    origin: ParameterPoint,
+    screened: list[ScreenedHypothesis],
+    baseline: FitResult,
+    report_progress: ProgressCallback,
+) -> list[CandidateFit]:
     """Every effect fitted: the promising ones on the full model, the others as the linear look has them.
 
     A linear look alone does not win: whichever leads is fitted as well, until what leads is a fit.
     """
     worth = NOTICED * len(problem.data)
-    found = [_by_look(one, none) for one in screened]
-    least = max(PROMISING * (none.strained - found[0].fitted.strained), worth)
+    found = [_from_screening(one, baseline) for one in screened]
+    least = max(PROMISING * (baseline.penalised_chi_square - found[0].fitted.penalised_chi_square), worth)
     for k, one in enumerate(screened[:REFINED]):
-        if none.strained - found[k].fitted.strained > least and _may_win(found[k], none, found):
-            found[k] = _on_full_model(problem, origin, one, none, found, say)
+        if baseline.penalised_chi_square - found[k].fitted.penalised_chi_square > least and _may_win(found[k], baseline, found):
+            found[k] = _on_full_model(problem, origin, one, baseline, found, report_progress)
     leader = _leader(found, len(problem.data))
-    while not found[leader].refined and found[leader].fitted.strained < none.strained - worth:
-        found[leader] = _on_full_model(problem, origin, screened[leader], none, found, say)
+    while not found[leader].refined and found[leader].fitted.penalised_chi_square < baseline.penalised_chi_square - worth:
+        found[leader] = _on_full_model(problem, origin, screened[leader], baseline, found, report_progress)
         leader = _leader(found, len(problem.data))
     if found[leader].refined:
         found[leader] = _finished(problem, origin, found[leader])
-        _twins_fitted(problem, origin, screened, none, found, leader, say)
+        _fit_indistinguishable(problem, origin, screened, baseline, found, leader, report_progress)
     return found
 
 
-def _twins_fitted(
-    problem: Problem, origin: Point, screened: Sequence[Screened], none: Fitted, found: list[Trial], leader: int, say: Say
+def _fit_indistinguishable(
+    problem: LeastSquaresProblem,
+    origin: ParameterPoint,
+    screened: Sequence[ScreenedHypothesis],
+    baseline: FitResult,
+    found: list[CandidateFit],
+    leader: int,
+    report_progress: ProgressCallback,
 ) -> None:
     """Fit what looks like the leader as well: of two effects with much the same trace a linear look may have misjudged one."""
     for k, one in enumerate(screened):
-        if not found[k].refined and alike(one, screened[leader]):
-            found[k] = _on_full_model(problem, origin, one, none, found, say)
+        if not found[k].refined and indistinguishable(one, screened[leader]):
+            found[k] = _on_full_model(problem, origin, one, baseline, found, report_progress)
 
 
-def challenged(
-    problem: Problem, origin: Point, screened: Sequence[Screened], none: Fitted, found: Sequence[Trial], say: Say
-) -> list[Trial]:
+def refit_from_other_masses(
+    problem: LeastSquaresProblem,
+    origin: ParameterPoint,
+    screened: Sequence[ScreenedHypothesis],
+    baseline: FitResult,
+    found: Sequence[CandidateFit],
+    report_progress: ProgressCallback,
+) -> list[CandidateFit]:
     """The trials, or better ones of the same effects that begin where `screened` saw them."""
     trials = {one.hypothesis.effect: one for one in found}
     for one in screened[:CHALLENGERS]:
-        if one.misfit < PROMISED * least_misfit(trials.values(), none):
-            trial = _finished(problem, origin, _on_full_model(problem, origin, one, none, list(trials.values()), say))
+        if one.chi_square < PROMISED * least_chi_square(trials.values(), baseline):
+            trial = _finished(
+                problem, origin, _on_full_model(problem, origin, one, baseline, list(trials.values()), report_progress)
+            )
             known = trials.setdefault(one.hypothesis.effect, trial)
-            trials[one.hypothesis.effect] = min(known, trial, key=lambda own: own.fitted.misfit)
+            trials[one.hypothesis.effect] = min(known, trial, key=lambda own: own.fitted.chi_square)
     return list(trials.values())
 
 
-def _finished(problem: Problem, origin: Point, one: Trial) -> Trial:
+def _finished(problem: LeastSquaresProblem, origin: ParameterPoint, one: CandidateFit) -> CandidateFit:
     """The trial with another mass, if that brings it into step, and what shapes its effects free there."""
-    moved = brought_into_step(problem, one.fitted, origin)
-    return one if moved is one.fitted else one._replace(fitted=shaped(problem, origin, moved))
+    moved = search_rope_mass(problem, one.fitted, origin)
+    return one if moved is one.fitted else one._replace(fitted=free_shape_parameters(problem, origin, moved))
 
 
-def least_misfit(found: Iterable[Trial], none: Fitted) -> float:
+def least_chi_square(found: Iterable[CandidateFit], baseline: FitResult) -> float:
     """Misfit of the best fit."""
-    return min((one.fitted.misfit for one in found if one.refined), default=none.misfit)
+    return min((one.fitted.chi_square for one in found if one.refined), default=baseline.chi_square)
 
 
-def _may_win(one: Trial, none: Fitted, found: Sequence[Trial]) -> bool:
+def _may_win(one: CandidateFit, baseline: FitResult, found: Sequence[CandidateFit]) -> bool:
     """Whether an effect that explains half as much again as its linear look has it would come near the best fit so far."""
-    at_best = one.fitted.strained - 0.5 * (none.strained - one.fitted.strained)
-    return at_best < NEAR * min((trial.fitted.strained for trial in found if trial.refined), default=none.strained)
+    at_best = one.fitted.penalised_chi_square - 0.5 * (baseline.penalised_chi_square - one.fitted.penalised_chi_square)
+    return at_best < NEAR * min(
+        (trial.fitted.penalised_chi_square for trial in found if trial.refined), default=baseline.penalised_chi_square
+    )
 
 
-def _leader(found: Sequence[Trial], count: int) -> int:
-    return max(range(len(found)), key=lambda k: found[k].score(count))
+def _leader(found: Sequence[CandidateFit], count: int) -> int:
+    return max(range(len(found)), key=lambda k: found[k].log_score(count))
 
 
-def _by_look(one: Screened, none: Fitted) -> Trial:
+def _from_screening(one: ScreenedHypothesis, baseline: FitResult) -> CandidateFit:
     """The fit that a linear look promises."""
-    fitted = replace(none, hypothesis=one.hypothesis, coefficients=one.start, misfit=one.misfit, strain=one.strain)
-    return Trial(one, fitted, False)
+    fitted = replace(
+        baseline, hypothesis=one.hypothesis, coefficients=one.start, chi_square=one.chi_square, prior_cost=one.prior_cost
+    )
+    return CandidateFit(one, fitted, False)
 
 
 def _on_full_model(
-    problem: Problem, origin: Point, one: Screened, none: Fitted, found: Sequence[Trial], say: Say
-) -> Trial:
+    problem: LeastSquaresProblem,
+    origin: ParameterPoint,
+    one: ScreenedHypothesis,
+    baseline: FitResult,
+    found: Sequence[CandidateFit],
+    report_progress: ProgressCallback,
+) -> CandidateFit:
     """The effect fitted; one that cannot be simulated explains nothing. A fit ends early once it cannot come near the best."""
-    say(f"{one.hypothesis.effect}, on the full model")
-    rival = RIVAL * min((trial.fitted.misfit for trial in found if trial.refined), default=float("inf"))
+    report_progress(f"{one.hypothesis.effect}, on the full model")
+    abandon_above = RIVAL * min((trial.fitted.chi_square for trial in found if trial.refined), default=float("inf"))
     try:
-        start = best_start(problem, one.hypothesis, one.start, origin, none, expected=one.misfit)
-        fitted = shaped(problem, origin, refine(problem, one.hypothesis, start, origin, rival), rival)
+        start = best_initial_guess(problem, one.hypothesis, one.start, origin, baseline, expected=one.chi_square)
+        fitted = free_shape_parameters(
+            problem, origin, gauss_newton(problem, one.hypothesis, start, origin, abandon_above), abandon_above
+        )
     except SimulationError:
-        idle = np.concatenate([none.coefficients[: len(NUISANCES)], np.zeros(len(one.hypothesis.directions))])
-        fitted = replace(none, hypothesis=one.hypothesis, coefficients=idle)
-    return Trial(one, fitted, True)
+        idle = np.concatenate([baseline.coefficients[: len(PLANT_PARAMETERS)], np.zeros(len(one.hypothesis.directions))])
+        fitted = replace(baseline, hypothesis=one.hypothesis, coefficients=idle)
+    return CandidateFit(one, fitted, True)
 
 
-def second_look(problem: Problem, origin: Point, found: Sequence[Trial], none: Fitted, say: Say) -> Trial | None:
+def fit_pair(
+    problem: LeastSquaresProblem,
+    origin: ParameterPoint,
+    found: Sequence[CandidateFit],
+    baseline: FitResult,
+    report_progress: ProgressCallback,
+) -> CandidateFit | None:
     """The best effect with a second one, both fitted together; None where the best explains too little to begin with."""
-    first = min((one.fitted for one in found if one.refined), key=lambda one: one.misfit, default=None)
-    if first is None or first.hypothesis is None or first.misfit > SECOND * none.misfit:
+    first = min((one.fitted for one in found if one.refined), key=lambda one: one.chi_square, default=None)
+    if first is None or first.hypothesis is None or first.chi_square > SECOND * baseline.chi_square:
         return None
-    say(f"{first.hypothesis.effect} and a second effect, linearised")
-    screened = screen(problem, first.point, first)
-    pairs = [pair for one in screened[:PAIRS] if (pair := _pair(problem, origin, first, one, say))]
-    best = min(pairs, key=lambda one: one.fitted.misfit, default=None)
+    report_progress(f"{first.hypothesis.effect} and a second effect, linearised")
+    screened = screen_hypotheses(problem, first.point, first)
+    pairs = [pair for one in screened[:PAIRS] if (pair := _pair(problem, origin, first, one, report_progress))]
+    best = min(pairs, key=lambda one: one.fitted.chi_square, default=None)
     return best and _finished(problem, origin, best)
 
 
-def _pair(problem: Problem, origin: Point, first: Fitted, second: Screened, say: Say) -> Trial | None:
+def _pair(
+    problem: LeastSquaresProblem,
+    origin: ParameterPoint,
+    first: FitResult,
+    second: ScreenedHypothesis,
+    report_progress: ProgressCallback,
+) -> CandidateFit | None:
     """Both effects fitted together on the full model; None where that cannot be simulated."""
     assert first.hypothesis is not None
-    both = together(first.hypothesis, second.hypothesis)
-    say(f"{both.effect}, on the full model")
+    both = combine(first.hypothesis, second.hypothesis)
+    report_progress(f"{both.effect}, on the full model")
     try:
-        return Trial(second, shaped(problem, origin, refine(problem, both, second.start, origin)), True)
+        return CandidateFit(
+            second, free_shape_parameters(problem, origin, gauss_newton(problem, both, second.start, origin)), True
+        )
     except SimulationError:
         return None
 
 
-def shaped(problem: Problem, origin: Point, fitted: Fitted, rival: float = float("inf")) -> Fitted:
+def free_shape_parameters(
+    problem: LeastSquaresProblem, origin: ParameterPoint, fitted: FitResult, abandon_above: float = float("inf")
+) -> FitResult:
     """The fit with what shapes its effects free as well (a frequency, a yield curvature), where more than noise is left."""
     assert fitted.hypothesis is not None
-    shapes = shapes_of(fitted.hypothesis.parts or (fitted.hypothesis,), problem.longest)
-    if not shapes or not LEFT * len(problem.data) < fitted.misfit < rival:
+    shapes = shape_hypotheses(fitted.hypothesis.parts or (fitted.hypothesis,), problem.longest)
+    if not shapes or not LEFT * len(problem.data) < fitted.chi_square < abandon_above:
         return fitted
-    whole = replace(together(fitted.hypothesis, *shapes), effect=fitted.hypothesis.effect)
-    freed = refine(problem, whole, np.concatenate([fitted.coefficients, np.zeros(len(shapes))]), origin, rival)
-    return freed if freed.misfit < WORTH * fitted.misfit else fitted
+    whole = replace(combine(fitted.hypothesis, *shapes), effect=fitted.hypothesis.effect)
+    freed = gauss_newton(problem, whole, np.concatenate([fitted.coefficients, np.zeros(len(shapes))]), origin, abandon_above)
+    return freed if freed.chi_square < WORTH * fitted.chi_square else fitted

@@ -12,15 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..data.campaign import Campaign
-from ..estimation.gauss_newton import Fitted, evaluate
-from ..estimation.mass_search import refitted
-from ..estimation.model_score import score
-from ..estimation.weighted_least_squares import Problem, pose
+from ..estimation.gauss_newton import FitResult, evaluate
+from ..estimation.mass_search import fit_with_mass_search
+from ..estimation.model_score import log_score
+from ..estimation.weighted_least_squares import LeastSquaresProblem, build_problem
 from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import NUISANCES
-from ..prediction.parameter_point import Point, Predictions, gathered, submit
-from .candidate_fits import Say, Trial, challenged, least_misfit, rivals, second_look
-from .linear_screening import Screened, alike, screen, seen_from_elsewhere
+from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
+from ..progress import ProgressCallback, no_progress
+from .candidate_fits import CandidateFit, fit_candidates, fit_pair, least_chi_square, refit_from_other_masses
+from .linear_screening import ScreenedHypothesis, indistinguishable, screen_at_other_masses, screen_hypotheses
 
 Floats = NDArray[np.float64]
 
@@ -35,12 +36,12 @@ MUCH = 2.0  # misfit per datum of the best fit above which effects are looked at
 class Candidate:
     """One effect in the ranking."""
 
-    fitted: Fitted
-    score: float
+    fitted: FitResult
+    log_score: float
     probability: float
     refined: bool
-    visible: float
-    least: dict[str, float]
+    distinct_share: float
+    detection_limits: dict[str, float]
 
     @property
     def hypothesis(self) -> Hypothesis:
@@ -54,44 +55,52 @@ class Diagnosis:
     """The outcome: `none` is the refitted model without a new effect; probabilities include "adequate" and "unknown"."""
 
     campaign: Campaign
-    problem: Problem
+    problem: LeastSquaresProblem
     nominal: Predictions
-    none: Fitted
+    baseline: FitResult
     ranking: tuple[Candidate, ...]
     probabilities: dict[str, float]
-    alike: tuple[tuple[str, str], ...]
+    indistinguishable: tuple[tuple[str, str], ...]
     verdict: str | None
     kind: str
 
 
 def diagnose(
-    campaign: Campaign, executor: Executor, say: Say = lambda _: None, base: Point | None = None, without: Sequence[str] = ()
+    campaign: Campaign,
+    executor: Executor,
+    report_progress: ProgressCallback = no_progress,
+    base: ParameterPoint | None = None,
+    without: Sequence[str] = (),
 ) -> Diagnosis:
     """Rank all effects against a campaign, `without` some; `base` has effects that are in the model already."""
-    origin = base or Point()
+    origin = base or ParameterPoint()
     runs = campaign.of_role("fit")
-    say("the model as it is")
-    nominal = gathered(runs, submit(campaign, runs, origin, executor))
-    problem = replace(pose(campaign, runs, executor, nominal), ruled_out=frozenset(without))
-    say("plant parameters")
-    begun = evaluate(problem, None, np.zeros(len(NUISANCES)), origin)
-    none = refitted(problem, begun, origin)
-    say("every effect, linearised")
-    found = rivals(problem, origin, screen(problem, origin, none, begun), none, say)
-    if least_misfit(found, none) > MUCH * len(problem.data):
-        say("every effect, from other masses of the rope")
-        found = challenged(problem, origin, seen_from_elsewhere(problem, origin, begun), none, found, say)
-    judged = _judged(campaign, problem, nominal, none, found)
-    if judged.kind == "unknown_effect" and (pair := second_look(problem, origin, found, none, say)):
-        return _judged(campaign, problem, nominal, none, [*found, pair])
-    return judged
+    report_progress("the model as it is")
+    nominal = collect_predictions(runs, submit_replays(campaign, runs, origin, executor))
+    problem = replace(build_problem(campaign, runs, executor, nominal), ruled_out=frozenset(without))
+    report_progress("plant parameters")
+    initial_fit = evaluate(problem, None, np.zeros(len(PLANT_PARAMETERS)), origin)
+    baseline = fit_with_mass_search(problem, initial_fit, origin)
+    report_progress("every effect, linearised")
+    found = fit_candidates(problem, origin, screen_hypotheses(problem, origin, baseline, initial_fit), baseline, report_progress)
+    if least_chi_square(found, baseline) > MUCH * len(problem.data):
+        report_progress("every effect, from other masses of the rope")
+        found = refit_from_other_masses(
+            problem, origin, screen_at_other_masses(problem, origin, initial_fit), baseline, found, report_progress
+        )
+    diagnosis = _assembled(campaign, problem, nominal, baseline, found)
+    if diagnosis.kind == "unknown_effect" and (pair := fit_pair(problem, origin, found, baseline, report_progress)):
+        return _assembled(campaign, problem, nominal, baseline, [*found, pair])
+    return diagnosis
 
 
-def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fitted, found: list[Trial]) -> Diagnosis:
+def _assembled(
+    campaign: Campaign, problem: LeastSquaresProblem, nominal: Predictions, baseline: FitResult, found: list[CandidateFit]
+) -> Diagnosis:
     count = len(problem.data)
-    scores = {"adequate": score(none.misfit, count, none.strain)}
-    scores |= {one.hypothesis.effect: one.score(count) for one in found}
-    scores["unknown"] = _unknown(none, found, count)
+    scores = {"adequate": log_score(baseline.chi_square, count, baseline.prior_cost)}
+    scores |= {one.hypothesis.effect: one.log_score(count) for one in found}
+    scores["unknown"] = _unknown(baseline, found, count)
     top = max(scores.values())
     weights = {name: float(np.exp(value - top)) for name, value in scores.items()}
     probabilities = {name: weight / sum(weights.values()) for name, weight in weights.items()}
@@ -99,22 +108,24 @@ def _judged(campaign: Campaign, problem: Problem, nominal: Predictions, none: Fi
         _candidate(one, scores, probabilities, count) for one in sorted(found, key=lambda one: -scores[one.hypothesis.effect])
     )
     verdict, kind = _verdict(probabilities, ranking)
-    return Diagnosis(campaign, problem, nominal, none, ranking, probabilities, _alike(found), verdict, kind)
+    return Diagnosis(campaign, problem, nominal, baseline, ranking, probabilities, _indistinguishable_pairs(found), verdict, kind)
 
 
-def _unknown(none: Fitted, found: list[Trial], count: int) -> float:
+def _unknown(baseline: FitResult, found: list[CandidateFit], count: int) -> float:
     """Score of an effect that nobody knows, which would leave about as much as one that is known and explains something."""
-    left, bent = 1.0, none.strain
-    known = max(found, key=lambda one: one.score(count), default=None)
-    if known and known.score(count) > score(none.misfit, count, none.strain):
-        left, bent = min(known.fitted.misfit / count, COMMON), known.fitted.strain
-    excess = max(none.misfit / count - 1.0, 0.0)
-    return score(count * max(left, 1.0 + UNEXPLAINED * excess), count, UNKNOWN + min(bent, USUAL))
+    left, bent = 1.0, baseline.prior_cost
+    known = max(found, key=lambda one: one.log_score(count), default=None)
+    if known and known.log_score(count) > log_score(baseline.chi_square, count, baseline.prior_cost):
+        left, bent = min(known.fitted.chi_square / count, COMMON), known.fitted.prior_cost
+    excess = max(baseline.chi_square / count - 1.0, 0.0)
+    return log_score(count * max(left, 1.0 + UNEXPLAINED * excess), count, UNKNOWN + min(bent, USUAL))
 
 
-def _candidate(one: Trial, scores: dict[str, float], probabilities: dict[str, float], count: int) -> Candidate:
+def _candidate(one: CandidateFit, scores: dict[str, float], probabilities: dict[str, float], count: int) -> Candidate:
     name = one.hypothesis.effect
-    return Candidate(one.fitted, scores[name], probabilities[name], one.refined, one.seen.visible, _least(one.seen, count))
+    return Candidate(
+        one.fitted, scores[name], probabilities[name], one.refined, one.screening.distinct_share, _least(one.screening, count)
+    )
 
 
 def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) -> tuple[str | None, str]:
@@ -126,9 +137,9 @@ def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) ->
     return top.effect, "instrument" if top.is_instrument else "known_effect"
 
 
-def _least(one: Screened, count: int) -> dict[str, float]:
+def _least(one: ScreenedHypothesis, count: int) -> dict[str, float]:
     """Least size of each parameter that these data would show: a misfit raised by three tenths."""
-    sizes = np.sqrt(0.3 * count) / np.maximum(np.linalg.norm(one.sideways, axis=0), 1e-300)
+    sizes = np.sqrt(0.3 * count) / np.maximum(np.linalg.norm(one.orthogonal_part, axis=0), 1e-300)
     return {
         key: float(size * abs(amount))
         for size, direction in zip(sizes, one.hypothesis.directions, strict=False)
@@ -137,12 +148,12 @@ def _least(one: Screened, count: int) -> dict[str, float]:
     }
 
 
-def _alike(found: list[Trial]) -> tuple[tuple[str, str], ...]:
+def _indistinguishable_pairs(found: list[CandidateFit]) -> tuple[tuple[str, str], ...]:
     """Pairs of effects whose traces in these data, free of the plant's, point the same way."""
     pairs = []
-    traces = [one.seen for one in found]
+    traces = [one.screening for one in found]
     for k, a in enumerate(traces):
         for b in traces[k + 1 :]:
-            if alike(a, b):
+            if indistinguishable(a, b):
                 pairs.append((a.hypothesis.effect, b.hypothesis.effect))
     return tuple(pairs)

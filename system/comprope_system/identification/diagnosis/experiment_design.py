@@ -15,9 +15,9 @@ from comprope.rope.simulator.rope import values_of
 from ...measurements import Trip
 from ...measurements.jerk_limited_profile import jerk_limited
 from ..data.campaign import Campaign, Run
-from ..data.whitening import part
-from ..estimation.gauss_newton import Fitted
-from ..prediction.parameter_point import gathered, submit
+from ..data.whitening import whiten_channel
+from ..estimation.gauss_newton import FitResult
+from ..prediction.parameter_point import collect_predictions, submit_replays
 from .diagnose import Diagnosis
 
 Floats = NDArray[np.float64]
@@ -30,7 +30,7 @@ SURE = 0.95  # probability above which no further run is asked for
 
 
 @dataclass(frozen=True)
-class Proposal:
+class ProposedRun:
     """A run to measure: `distance` is how many standard deviations of noise and discrepancy the rivals are apart, in the mean."""
 
     weight: float
@@ -39,7 +39,7 @@ class Proposal:
     speed: float
     distance: float
 
-    def told(self) -> str:
+    def sentence(self) -> str:
         """One line."""
         way = "up" if self.end > self.start else "down"
         trip = f"{way} from {self.start:.3g} m to {self.end:.3g} m at {self.speed:.3g} m/s"
@@ -53,36 +53,39 @@ class Proposal:
         }  # fmt: skip
 
 
-def unsettled(diagnosis: Diagnosis) -> bool:
+def is_inconclusive(diagnosis: Diagnosis) -> bool:
     """Whether another run could change the verdict."""
     return (diagnosis.kind != "adequate" and max(diagnosis.probabilities.values()) < SURE) or diagnosis.kind == "unknown_effect"
 
 
-def rivals(diagnosis: Diagnosis) -> tuple[tuple[str, Fitted], tuple[str, Fitted]] | None:
+def best_two_fits(diagnosis: Diagnosis) -> tuple[tuple[str, FitResult], tuple[str, FitResult]] | None:
     """The two best fits on the full model, that without an effect among them; None if there is one only."""
     fitted = [(one.hypothesis.effect, one.fitted) for one in diagnosis.ranking if one.refined]
-    found = sorted([*fitted, ("nothing missing", diagnosis.none)], key=lambda one: one[1].misfit)
+    found = sorted([*fitted, ("nothing missing", diagnosis.baseline)], key=lambda one: one[1].chi_square)
     return (found[0], found[1]) if len(found) > 1 else None
 
 
-def next_runs(diagnosis: Diagnosis, executor: Executor) -> list[Proposal]:
+def rank_candidate_runs(diagnosis: Diagnosis, executor: Executor) -> list[ProposedRun]:
     """Runs that would separate the two best rivals, the best first; their fits are not repeated with the new run."""
-    pair = rivals(diagnosis)
+    pair = best_two_fits(diagnosis)
     if pair is None:
         return []
-    tried = list(candidates(diagnosis.campaign))
-    jobs = [(one, run, [submit(diagnosis.campaign, [run], fitted.point, executor) for _, fitted in pair]) for one, run in tried]
+    tried = list(candidate_runs(diagnosis.campaign))
+    jobs = [
+        (one, run, [submit_replays(diagnosis.campaign, [run], fitted.point, executor) for _, fitted in pair])
+        for one, run in tried
+    ]
     found = []
     for one, run, both in jobs:
         try:
-            a, b = (gathered([run], some) for some in both)
+            a, b = (collect_predictions([run], some) for some in both)
         except CompropeError:  # a weight or a trip that this rope cannot do
             continue
         found.append(replace(one, distance=_distance(diagnosis.campaign, run, a, b)))
     return sorted(found, key=lambda one: -one.distance)
 
 
-def candidates(campaign: Campaign) -> list[tuple[Proposal, Run]]:
+def candidate_runs(campaign: Campaign) -> list[tuple[ProposedRun, Run]]:
     """Every run that is considered: sheave's weight, direction, distance, speed."""
     height = campaign.model.shaft.height
     lowest = min(float(run.trip.position(run.time).min()) for run in campaign.runs)
@@ -93,12 +96,12 @@ def candidates(campaign: Campaign) -> list[tuple[Proposal, Run]]:
     for weight, share, speed, up in product(WEIGHTS, SHARES, SPEEDS, (True, False)):
         reach = min(share * height, highest - lowest)
         ends = (lowest, lowest + reach) if up else (highest, highest - reach)
-        one = Proposal(weight, *ends, min(speed * top, (0.6 * pull * reach) ** 0.5), 0.0)
+        one = ProposedRun(weight, *ends, min(speed * top, (0.6 * pull * reach) ** 0.5), 0.0)
         found.append((one, _run(campaign, one, pull)))
     return found
 
 
-def _run(campaign: Campaign, one: Proposal, pull: float) -> Run:
+def _run(campaign: Campaign, one: ProposedRun, pull: float) -> Run:
     ramp, way = one.speed / pull, abs(one.end - one.start)
     cruise = way / one.speed - 1.5 * ramp
     phases = np.array([0.5 * ramp, 0.5 * ramp, 0.5 * ramp, cruise, 0.5 * ramp, 0.5 * ramp, 0.5 * ramp])
@@ -117,7 +120,7 @@ def _distance(campaign: Campaign, run: Run, a: dict[tuple[str, str], Floats], b:
     for column, channel in campaign.channels.items():
         one, other = a[run.file, column], b[run.file, column]
         stated = channel.model_copy(update={"noise": channel.noise or _noise(campaign, column)})
-        weighed = part(run, stated, one, np.isfinite(one) & np.isfinite(other))
+        weighed = whiten_channel(run, stated, one, np.isfinite(one) & np.isfinite(other))
         if weighed:
             apart = weighed.whiten(weighed.means(one) - weighed.means(other))
             total, count = total + float(apart @ apart), count + len(apart)

@@ -15,12 +15,12 @@ from comprope.errors import SimulationError
 from comprope.rope.effects import RopeModel, names_of
 
 from ..data.campaign import Channel, Run
-from ..data.whitening import Part
-from ..estimation.gauss_newton import Fitted
-from ..estimation.linearisation import directions_of
-from ..estimation.weighted_least_squares import Problem
-from ..prediction.parameter_point import Predictions, moved
-from ..prediction.replay import STEP, referred
+from ..data.whitening import WhitenedChannel
+from ..estimation.gauss_newton import FitResult
+from ..estimation.linearisation import fit_directions
+from ..estimation.weighted_least_squares import LeastSquaresProblem
+from ..prediction.parameter_point import Predictions, run_at_point
+from ..prediction.replay import STEP, relative_to_rest
 from ..prediction.replay_sensitivities import replay_with_sensitivities
 
 Floats = NDArray[np.float64]
@@ -30,7 +30,7 @@ SPACING = 0.5  # of a period over the longest record
 MOST = 3
 
 
-def scanned(problem: Problem, fitted: Fitted, coarse: float) -> tuple[float, ...]:
+def sway_frequencies(problem: LeastSquaresProblem, fitted: FitResult, coarse: float) -> tuple[float, ...]:
     """The frequencies [Hz] at which a sway would explain most of what a fit leaves, on elements `coarse` times as long."""
     campaign = problem.campaign
     if EFFECT not in names_of(campaign.model):
@@ -38,9 +38,9 @@ def scanned(problem: Problem, fitted: Fitted, coarse: float) -> tuple[float, ...
     grid = np.arange(LOWEST, HIGHEST, SPACING / problem.longest)
     jobs = []
     for run in problem.runs:
-        there = moved(campaign.model, run, problem.held_back(fitted.point), coarse)
-        parts = [one for one in problem.parts if one.run == run.file]
-        jobs.append(problem.executor.submit(responses, campaign.model, there, campaign.channels, parts, grid, coarse))
+        there = run_at_point(campaign.model, run, problem.with_held_fixed(fitted.point), coarse)
+        whitened_channels = [one for one in problem.whitened_channels if one.run == run.file]
+        jobs.append(problem.executor.submit(responses, campaign.model, there, campaign.channels, whitened_channels, grid, coarse))
     try:
         found = explained(problem, fitted, [job.result() for job in jobs])
     except SimulationError:  # elements or steps too long for this rope
@@ -56,33 +56,38 @@ def _top(grid: Floats, found: Floats, k: int) -> float:
 
 
 def responses(
-    model: RopeModel, run: Run, channels: Mapping[str, Channel], parts: Sequence[Part], grid: Floats, coarse: float
+    model: RopeModel,
+    run: Run,
+    channels: Mapping[str, Channel],
+    whitened_channels: Sequence[WhitenedChannel],
+    grid: Floats,
+    coarse: float,
 ) -> Floats:
     """Whitened responses (data of the run, frequencies, 2) to a sway of 1 m, as its sine and its cosine."""
     amplitude, frequency, phase = (f"effects.{EFFECT}.{name}" for name in ("amplitude", "frequency", "phase"))
     at = {f"{k}.{turn}": {frequency: float(f), phase: 0.5 * pi * turn} for k, f in enumerate(grid) for turn in (0, 1)}
     directions = {name: {amplitude: 1.0} for name in at}
     _, by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at)
-    columns = [np.concatenate([one.whiten(one.means(by[name][one.column])) for one in parts]) for name in at]
+    columns = [np.concatenate([one.whiten(one.means(by[name][one.column])) for one in whitened_channels]) for name in at]
     return np.column_stack(columns).reshape(-1, len(grid), 2)
 
 
-def explained(problem: Problem, fitted: Fitted, responses: Sequence[Floats]) -> Floats:
+def explained(problem: LeastSquaresProblem, fitted: FitResult, responses: Sequence[Floats]) -> Floats:
     """How much of the squares that a fit leaves a sway of each frequency takes away (frequencies,)."""
-    others, count = directions_of(fitted.hypothesis), len(problem.data)
-    plant, _ = np.linalg.qr(np.vstack([fitted.by, np.diag([1.0 / one.prior for one in others])]))
-    left = _beside(plant, np.append(problem.residual(fitted.predictions), np.zeros(len(others))))
+    others, count = fit_directions(fitted.hypothesis), len(problem.data)
+    plant, _ = np.linalg.qr(np.vstack([fitted.jacobian, np.diag([1.0 / one.prior for one in others])]))
+    left = _orthogonal_to(plant, np.append(problem.residual(fitted.predictions), np.zeros(len(others))))
     found = []
     for k in range(responses[0].shape[1]):
         columns = np.zeros((count + len(others), 2 * len(responses)))
         for j, (rows, of_run) in enumerate(zip(problem.rows_of_runs, responses, strict=True)):
             columns[:count][rows, 2 * j : 2 * j + 2] = of_run[:, k]
-        columns = _beside(plant, columns)
+        columns = _orthogonal_to(plant, columns)
         found.append(float(left @ columns @ np.linalg.lstsq(columns.T @ columns, columns.T @ left, rcond=1e-9)[0]))
     return np.array(found)
 
 
-def _beside(plant: Floats, columns: Floats) -> Floats:
+def _orthogonal_to(plant: Floats, columns: Floats) -> Floats:
     """What of some columns an orthonormal basis `plant` cannot imitate."""
     return np.asarray(columns - plant @ (plant.T @ columns))
 
@@ -91,12 +96,12 @@ MOST_PEAKS = 3
 LOWEST_PEAK, HIGHEST_PEAK = 0.05, 3.0  # Hz
 
 
-def frequencies(problem: Problem, predictions: Predictions) -> tuple[float, ...]:
+def residual_peak_frequencies(problem: LeastSquaresProblem, predictions: Predictions) -> tuple[float, ...]:
     """The frequencies [Hz] of the highest peaks in the residual of the lateral channels, over all runs."""
     grid = np.linspace(LOWEST_PEAK, HIGHEST_PEAK, 600)
     power = np.zeros(len(grid))
     for run in problem.runs:
-        measured = referred(run.values, run, problem.campaign.channels)
+        measured = relative_to_rest(run.values, run, problem.campaign.channels)
         for column, channel in problem.campaign.channels.items():
             left = measured[column] - predictions[run.file, column]
             known = np.isfinite(left)

@@ -9,19 +9,19 @@ from ...report.json_output import plain
 from ..comparison.compare import Comparison, compare
 from ..comparison.data_quality import remarks
 from ..comparison.nrmse import nrmse
-from ..estimation.gauss_newton import Fitted
-from ..estimation.parameter_estimates import Value, plant_results, set_by_runs, widening
+from ..estimation.gauss_newton import FitResult
+from ..estimation.parameter_estimates import Estimate, keys_set_by_runs, plant_estimates, standard_error_scale
 from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.model_effects import name_of, short_names
-from ..hypotheses.plant_parameters import NUISANCES
-from ..prediction.parameter_point import Point
+from ..hypotheses.model_effects import effect_name, short_names
+from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.parameter_point import ParameterPoint
 from .diagnose import Candidate, Diagnosis
 
 FAR = 4.0  # prior deviations
 
 
 @dataclass(frozen=True)
-class Judged:
+class ValidatedDiagnosis:
     """A diagnosis with its comparisons: the model file as it stands, its plant refitted, and each refined candidate."""
 
     diagnosis: Diagnosis
@@ -36,46 +36,51 @@ class Judged:
         return self.candidates.get(0, self.refitted) if self.diagnosis.verdict else self.refitted
 
 
-def judge(diagnosis: Diagnosis, executor: Executor, base: Point | None = None) -> Judged:
+def validate(diagnosis: Diagnosis, executor: Executor, base: ParameterPoint | None = None) -> ValidatedDiagnosis:
     """Judge what the diagnosis fitted on all runs; those held out are replayed."""
     campaign = diagnosis.campaign
     before = compare(campaign, executor, base, diagnosis.nominal)
     fits = {k: one.fitted for k, one in enumerate(diagnosis.ranking) if one.refined}
-    refitted = compare(campaign, executor, diagnosis.none.point, diagnosis.none.predictions)
+    refitted = compare(campaign, executor, diagnosis.baseline.point, diagnosis.baseline.predictions)
     candidates = {k: compare(campaign, executor, one.point, one.predictions) for k, one in fits.items()}
-    found = Judged(diagnosis, before, refitted, candidates, ())
-    return Judged(diagnosis, before, refitted, candidates, tuple(remarks(campaign, found.best.predictions, before.predictions)))
+    found = ValidatedDiagnosis(diagnosis, before, refitted, candidates, ())
+    return ValidatedDiagnosis(
+        diagnosis, before, refitted, candidates, tuple(remarks(campaign, found.best.predictions, before.predictions))
+    )
 
 
-def to_json(judged: Judged) -> dict[str, Any]:
+def to_json(validated: ValidatedDiagnosis) -> dict[str, Any]:
     """The result as in the contract, with more beside it."""
-    diagnosis, count = judged.diagnosis, max(len(judged.diagnosis.problem.data), 1)
+    diagnosis, count = validated.diagnosis, max(len(validated.diagnosis.problem.data), 1)
     nominal = diagnosis.problem.residual(diagnosis.nominal)
     found = {
         "campaign": diagnosis.campaign.name,
         "verdict": diagnosis.verdict,
         "verdict_kind": diagnosis.kind,
-        "ranking": ranking(judged),
-        "indistinguishable": [list(pair) for pair in diagnosis.alike],
+        "ranking": ranking(validated),
+        "indistinguishable": [list(pair) for pair in diagnosis.indistinguishable],
         "probabilities": diagnosis.probabilities,
-        "misfit_per_datum": {"as_it_stands": float(nominal @ nominal) / count, "plant_refitted": diagnosis.none.misfit / count},
+        "misfit_per_datum": {
+            "as_it_stands": float(nominal @ nominal) / count,
+            "plant_refitted": diagnosis.baseline.chi_square / count,
+        },
         "errors": {
             name: {"fit": one.fit_nrmse, "validate": one.validate_nrmse}
-            for name, one in (("as_it_stands", judged.before), ("plant_refitted", judged.refitted))
+            for name, one in (("as_it_stands", validated.before), ("plant_refitted", validated.refitted))
         },
         "plant": {key: one.to_json() for key, one in plant(diagnosis).items()},
         "ruled_out": sorted(diagnosis.problem.ruled_out),
         "data": count,
-        "remarks": list(judged.remarks),
+        "remarks": list(validated.remarks),
     }  # fmt: skip
     return plain(found)
 
 
-def ranking(judged: Judged) -> list[dict[str, Any]]:
+def ranking(validated: ValidatedDiagnosis) -> list[dict[str, Any]]:
     """One entry for each effect, most probable first; several effects at once stand under the name of the first."""
     found: dict[str, dict[str, Any]] = {}
-    for k, one in enumerate(judged.diagnosis.ranking):
-        entry = _entry(judged, k, one)
+    for k, one in enumerate(validated.diagnosis.ranking):
+        entry = _entry(validated, k, one)
         if entry["effect"] in found:
             found[entry["effect"]]["probability"] += entry["probability"]
         else:
@@ -83,16 +88,17 @@ def ranking(judged: Judged) -> list[dict[str, Any]]:
     return sorted(found.values(), key=lambda entry: -entry["probability"])
 
 
-def _entry(judged: Judged, k: int, one: Candidate) -> dict[str, Any]:
-    before = judged.before
-    after, held = errors_after(judged, k, one)
+def _entry(validated: ValidatedDiagnosis, k: int, one: Candidate) -> dict[str, Any]:
+    before = validated.before
+    after, held = errors_after(validated, k, one)
     parts = effects_of(one.hypothesis)
     values = one.hypothesis.parameters(one.fitted.effect_coefficients)
     entry = {
         "effect": parts[0], "probability": one.probability, "error_before": before.fit_nrmse, "error_after": after,
         "validate_error_before": before.validate_nrmse, "validate_error_after": held,
-        "parameters": short_names(parts[0], values), "estimated": not one.refined, "misfit_per_datum": misfit(judged, one),
-        "visible_share": one.visible, "least_detectable": short_names(parts[0], one.least),
+        "parameters": short_names(parts[0], values), "estimated": not one.refined,
+        "misfit_per_datum": reduced_chi_square(validated, one),
+        "visible_share": one.distinct_share, "least_detectable": short_names(parts[0], one.detection_limits),
     }  # fmt: skip
     # Beside several effects at once there are values that an effect cannot do without: airflow has no force without drag.
     others = {name: short_names(name, values) for name in {key.split(".")[1] for key in values} - {parts[0]}}
@@ -101,9 +107,9 @@ def _entry(judged: Judged, k: int, one: Candidate) -> dict[str, Any]:
     return entry | ({"together_with": with_it} if with_it else {}) | ({"brings": brought} if brought else {})
 
 
-def misfit(judged: Judged, one: Candidate) -> float:
+def reduced_chi_square(validated: ValidatedDiagnosis, one: Candidate) -> float:
     """Weighed squared error per datum that an effect leaves: near 1, nothing but noise."""
-    return one.fitted.misfit / max(len(judged.diagnosis.problem.data), 1)
+    return one.fitted.chi_square / max(len(validated.diagnosis.problem.data), 1)
 
 
 def effects_of(hypothesis: Hypothesis) -> list[str]:
@@ -111,47 +117,47 @@ def effects_of(hypothesis: Hypothesis) -> list[str]:
     return [part.effect for part in (hypothesis.parts or (hypothesis,))]
 
 
-def errors_after(judged: Judged, k: int, one: Candidate) -> tuple[float, float]:
+def errors_after(validated: ValidatedDiagnosis, k: int, one: Candidate) -> tuple[float, float]:
     """Errors with an effect on fit and validate runs; where it was not refined, in proportion to its misfit."""
-    if k in judged.candidates:
-        return nrmse_of_fit(judged, k), judged.candidates[k].validate_nrmse
-    share = (one.fitted.misfit / max(judged.diagnosis.none.misfit, 1e-300)) ** 0.5
-    return share * judged.refitted.fit_nrmse, share * judged.refitted.validate_nrmse
+    if k in validated.candidates:
+        return nrmse_of_fit(validated, k), validated.candidates[k].validate_nrmse
+    share = (one.fitted.chi_square / max(validated.diagnosis.baseline.chi_square, 1e-300)) ** 0.5
+    return share * validated.refitted.fit_nrmse, share * validated.refitted.validate_nrmse
 
 
-def nrmse_of_fit(judged: Judged, k: int) -> float:
+def nrmse_of_fit(validated: ValidatedDiagnosis, k: int) -> float:
     """Error of a refined candidate on the fit runs."""
-    campaign = judged.diagnosis.campaign
-    return nrmse(campaign, campaign.of_role("fit"), judged.candidates[k].predictions)
+    campaign = validated.diagnosis.campaign
+    return nrmse(campaign, campaign.of_role("fit"), validated.candidates[k].predictions)
 
 
-def plant(diagnosis: Diagnosis) -> dict[str, Value]:
+def plant(diagnosis: Diagnosis) -> dict[str, Estimate]:
     """The plant as refitted beside the verdict's effect, or alone."""
     fitted = _best(diagnosis)
-    return plant_results(diagnosis.campaign, fitted, widening(fitted, len(diagnosis.problem.data)))
+    return plant_estimates(diagnosis.campaign, fitted, standard_error_scale(fitted, len(diagnosis.problem.data)))
 
 
-def far_off(diagnosis: Diagnosis) -> list[tuple[str, float, float]]:
+def implausible_parameters(diagnosis: Diagnosis) -> list[tuple[str, float, float]]:
     """Plant parameters that no data sheet is so wrong about: key, relative change, and in how many prior deviations."""
     fitted = _best(diagnosis)
-    moved = [(one, float(c), float(c) / one.prior) for one, c in zip(NUISANCES, fitted.coefficients, strict=False)]
+    moved = [(one, float(c), float(c) / one.prior) for one, c in zip(PLANT_PARAMETERS, fitted.coefficients, strict=False)]
     return [(one.name, expm1(c), off) for one, c, off in moved if one.relative and abs(off) > FAR]
 
 
-def _best(diagnosis: Diagnosis) -> Fitted:
+def _best(diagnosis: Diagnosis) -> FitResult:
     """The fit of the verdict's effect, or of the plant alone."""
-    return diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.none
+    return diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.baseline
 
 
-def biases(diagnosis: Diagnosis) -> list[tuple[str, Value, float]]:
+def parameter_shifts(diagnosis: Diagnosis) -> list[tuple[str, Estimate, float]]:
     """Plant parameters by key, with value and how many prior deviations they were moved, the most moved first."""
     fitted = _best(diagnosis)
     values = plant(diagnosis)
-    moved = [(one.name, values[one.name], float(fitted.coefficients[k]) / one.prior) for k, one in enumerate(NUISANCES)]
-    replaced = set_by_runs(diagnosis.campaign)
+    moved = [(one.name, values[one.name], float(fitted.coefficients[k]) / one.prior) for k, one in enumerate(PLANT_PARAMETERS)]
+    replaced = keys_set_by_runs(diagnosis.campaign)
     return sorted((one for one in moved if one[0] not in replaced), key=lambda one: -abs(one[2]))
 
 
 def full_name(hypothesis: Hypothesis) -> str:
     """The name under which `comprope add` takes an effect; an instrument's fault with its channel."""
-    return name_of((hypothesis.parts or (hypothesis,))[0])
+    return effect_name((hypothesis.parts or (hypothesis,))[0])

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import NUISANCES
-from ..prediction.parameter_point import Point, Predictions
-from .linearisation import directions_of, linearised, point_of
-from .model_score import strain, strained
-from .weighted_least_squares import Problem, Solution, scale_of, solve
+from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.parameter_point import ParameterPoint, Predictions
+from .linearisation import fit_directions, linearise, point_at
+from .model_score import penalised_chi_square, prior_cost
+from .weighted_least_squares import LeastSquaresProblem, Solution, scale_of, solve
 
 Floats = NDArray[np.float64]
 ENOUGH = 4e-3  # of the number of data: a fall of the cost below this ends the iteration
@@ -27,60 +27,60 @@ SHORTER = (0.3, 0.1, 0.03)  # of a step that leads uphill
 
 
 @dataclass(frozen=True)
-class Fitted:
+class FitResult:
     """The best point of a hypothesis (None: nothing is missing), its predictions and how well they agree.
 
     `misfit` is the sum of squares in units of noise and discrepancy, `penalty` that of coefficients over priors;
-    `coefficients` are plant first, then the effect; `covariance` theirs; `by` (N, coefficients) are the
+    `coefficients` are plant first, then the effect; `covariance` theirs; `jacobian` (N, coefficients) are the
     derivatives there. `strain` is what the plant's coefficients cost, there or where derivatives lead from there: a fit
     ends before priors have pulled all they could.
     """
 
     hypothesis: Hypothesis | None
-    point: Point
+    point: ParameterPoint
     predictions: Predictions
     coefficients: Floats
     covariance: Floats
-    by: Floats
-    misfit: float
-    penalty: float
-    strain: float
+    jacobian: Floats
+    chi_square: float
+    prior_penalty: float
+    prior_cost: float
 
     def cost(self, scale: float = 1.0) -> float:
         """Misfit and priors in its scale."""
-        return self.misfit + scale * self.penalty
+        return self.chi_square + scale * self.prior_penalty
 
     @property
-    def strained(self) -> float:
+    def penalised_chi_square(self) -> float:
         """The misfit, raised for a plant off its data sheets."""
-        return strained(self.misfit, self.strain)
+        return penalised_chi_square(self.chi_square, self.prior_cost)
 
     @property
     def effect_coefficients(self) -> list[float]:
         """Coefficients of the effect's directions."""
-        return [float(c) for c in self.coefficients[len(NUISANCES) :]]
+        return [float(c) for c in self.coefficients[len(PLANT_PARAMETERS) :]]
 
 
-def refine(
-    problem: Problem,
+def gauss_newton(
+    problem: LeastSquaresProblem,
     hypothesis: Hypothesis | None,
     start: Floats,
-    base: Point,
-    rival: float = float("inf"),
-    begun: Fitted | None = None,
-) -> Fitted:
+    base: ParameterPoint,
+    abandon_above: float = float("inf"),
+    initial_fit: FitResult | None = None,
+) -> FitResult:
     """The best point near `start`; `begun` is what is known of `start`.
 
     A fit that expects to end above `rival` is left where it is. Raises `SimulationError` if `start` cannot be simulated.
     """
-    directions, count, fresh = directions_of(hypothesis), len(problem.data), True
-    best = begun or evaluate(problem, hypothesis, np.asarray(start, float), base)
+    directions, count, fresh = fit_directions(hypothesis), len(problem.data), True
+    best = initial_fit or evaluate(problem, hypothesis, np.asarray(start, float), base)
     for done in range(ROUNDS):
         # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
-        scale = scale_of(best.misfit, count)
-        solution = solve(problem.residual(best.predictions), best.by, directions, best.coefficients, scale)
+        scale = scale_of(best.chi_square, count)
+        solution = solve(problem.residual(best.predictions), best.jacobian, directions, best.coefficients, scale)
         best = _seen_from(best, solution)
-        if solution.misfit > rival * (1.0 if done >= TRUSTED else HOPELESS):
+        if solution.chi_square > abandon_above * (1.0 if done >= TRUSTED else HOPELESS):
             break
         enough, promised, before = ENOUGH * scale * count, best.cost(scale) - solution.cost, best.cost(scale)
         if promised >= enough:
@@ -94,27 +94,32 @@ def refine(
     return best
 
 
-def _seen_from(fitted: Fitted, solution: Solution) -> Fitted:
+def _seen_from(fitted: FitResult, solution: Solution) -> FitResult:
     """The fit with what the solution by its derivatives tells."""
-    least = min(strain(fitted.coefficients), strain(solution.coefficients))
-    return replace(fitted, covariance=solution.covariance, strain=least)
+    least = min(prior_cost(fitted.coefficients), prior_cost(solution.coefficients))
+    return replace(fitted, covariance=solution.covariance, prior_cost=least)
 
 
-def evaluate(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> Fitted:
+def evaluate(problem: LeastSquaresProblem, hypothesis: Hypothesis | None, x: Floats, base: ParameterPoint) -> FitResult:
     """Misfit and derivatives at the coefficients x (k,). Raises `SimulationError` where the model cannot be simulated there."""
-    return _fitted(problem, hypothesis, x, base, *linearised(problem, hypothesis, x, base))
+    return _fitted(problem, hypothesis, x, base, *linearise(problem, hypothesis, x, base))
 
 
 def _fitted(
-    problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point, predictions: Predictions, by: Floats
-) -> Fitted:
+    problem: LeastSquaresProblem,
+    hypothesis: Hypothesis | None,
+    x: Floats,
+    base: ParameterPoint,
+    predictions: Predictions,
+    by: Floats,
+) -> FitResult:
     residual = problem.residual(predictions)
-    penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, directions_of(hypothesis), strict=True)))
-    point, none = point_of(hypothesis, list(x), base), np.zeros((len(x), len(x)))
-    return Fitted(hypothesis, point, predictions, x, none, by, float(residual @ residual), penalty, strain(x))
+    prior_penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, fit_directions(hypothesis), strict=True)))
+    point, none = point_at(hypothesis, list(x), base), np.zeros((len(x), len(x)))
+    return FitResult(hypothesis, point, predictions, x, none, by, float(residual @ residual), prior_penalty, prior_cost(x))
 
 
-def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, scale: float) -> Fitted:
+def _downhill(problem: LeastSquaresProblem, best: FitResult, solution: Solution, base: ParameterPoint, scale: float) -> FitResult:
     """The solution's point, or one nearer to the present where that one is worse than it or cannot be simulated."""
     step = solution.coefficients - best.coefficients
     for shares in ((1.0,), SHORTER):
@@ -125,16 +130,16 @@ def _downhill(problem: Problem, best: Fitted, solution: Solution, base: Point, s
     return best
 
 
-def _stepped(problem: Problem, best: Fitted, steps: Sequence[Floats], base: Point) -> list[Fitted]:
+def _stepped(problem: LeastSquaresProblem, best: FitResult, steps: Sequence[Floats], base: ParameterPoint) -> list[FitResult]:
     """Those points some steps away that can be simulated, with derivatives carried along the step."""
     found, y = [], problem.whitened(best.predictions)
-    widths = np.array([one.prior for one in directions_of(best.hypothesis)])
+    widths = np.array([one.prior for one in fit_directions(best.hypothesis)])
     reached = [best.coefficients + step for step in steps]
-    at = problem.attempts(*(point_of(best.hypothesis, list(x), base) for x in reached))
+    at = problem.attempts(*(point_at(best.hypothesis, list(x), base) for x in reached))
     for x, step, predictions in zip(reached, steps, at, strict=True):
         if predictions is not None:
             along = step / widths**2
-            missed = problem.whitened(predictions) - y - best.by @ step
-            by = best.by + np.outer(missed, along / float(along @ step))
+            missed = problem.whitened(predictions) - y - best.jacobian @ step
+            by = best.jacobian + np.outer(missed, along / float(along @ step))
             found.append(_fitted(problem, best.hypothesis, x, base, predictions, by))
     return found

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import NUISANCES
-from ..prediction.parameter_point import Point
-from .gauss_newton import Fitted
-from .linearisation import point_of
-from .weighted_least_squares import Problem
+from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.parameter_point import ParameterPoint
+from .gauss_newton import FitResult
+from .linearisation import point_at
+from .weighted_least_squares import LeastSquaresProblem
 
 Floats = NDArray[np.float64]
 FACTORS = (2.5, 0.4)
@@ -21,12 +21,12 @@ LINEAR = 0.15  # of what an effect should explain or leave: the most by which th
 LONGEST = 3  # steps towards larger or smaller sizes
 
 
-def best_start(
-    problem: Problem,
+def best_initial_guess(
+    problem: LeastSquaresProblem,
     hypothesis: Hypothesis,
     start: Floats,
-    origin: Point,
-    none: Fitted,
+    origin: ParameterPoint,
+    baseline: FitResult,
     new: int | None = None,
     expected: float = 0.0,
 ) -> Floats:
@@ -36,29 +36,29 @@ def best_start(
     several amplitudes is tried alone as well. `new` is the number of the effect's directions, the first; by default all are.
     Nothing else is tried where `start` has the misfit that the linear look `expected`.
     """
-    count = len(NUISANCES)
-    plants = (start[:count], np.zeros(count), none.coefficients[:count])
+    count = len(PLANT_PARAMETERS)
+    plants = (start[:count], np.zeros(count), baseline.coefficients[:count])
     starts = [np.concatenate([plant, start[count:]]) for plant in plants]
-    missed = misfits(problem, hypothesis, starts[:1], origin)
-    if missed[0] - expected < LINEAR * min(expected, none.misfit - expected):
+    missed = chi_squares(problem, hypothesis, starts[:1], origin)
+    if missed[0] - expected < LINEAR * min(expected, baseline.chi_square - expected):
         return start
-    missed += misfits(problem, hypothesis, starts[1:], origin)
+    missed += chi_squares(problem, hypothesis, starts[1:], origin)
     best, least = starts[int(np.argmin(missed))], min(missed)
     sized = [resized(hypothesis, one, factor, new) for one in [best, *alone(hypothesis, best, new)] for factor in FACTORS]
-    missed = misfits(problem, hypothesis, sized, origin)
+    missed = chi_squares(problem, hypothesis, sized, origin)
     factor = FACTORS[int(np.argmin(missed)) % len(FACTORS)]
     for _ in range(LONGEST):
         if min(missed) >= least:
             break
         best, least = sized[int(np.argmin(missed))], min(missed)
         sized = [resized(hypothesis, best, factor, new)]
-        missed = misfits(problem, hypothesis, sized, origin)
+        missed = chi_squares(problem, hypothesis, sized, origin)
     return best
 
 
 def resized(hypothesis: Hypothesis, x: Floats, factor: float, new: int | None = None) -> Floats:
     """The coefficients with the effect's size multiplied, as far as bounds let it; phases stay."""
-    grown, count = x.copy(), len(NUISANCES)
+    grown, count = x.copy(), len(PLANT_PARAMETERS)
     for k, one in enumerate(hypothesis.directions[:new], count):
         if one.changes:
             grown[k] = min(max(factor * x[k], one.lower), one.upper)
@@ -67,14 +67,16 @@ def resized(hypothesis: Hypothesis, x: Floats, factor: float, new: int | None = 
 
 def alone(hypothesis: Hypothesis, x: Floats, new: int | None = None) -> list[Floats]:
     """The coefficients with each of the effect's amplitudes alone; none where there is one only, or a cosine and a sine."""
-    count, polar = len(NUISANCES), any(part.polar for part in hypothesis.parts or (hypothesis,))
+    count, polar = len(PLANT_PARAMETERS), any(part.polar for part in hypothesis.parts or (hypothesis,))
     sized = range(count, count + len(hypothesis.directions[:new]))
     if polar or len(sized) < 2:
         return []
     return [np.where(np.isin(np.arange(len(x)), [j for j in sized if j != k]), 0.0, x) for k in sized if x[k]]
 
 
-def misfits(problem: Problem, hypothesis: Hypothesis | None, tried: Sequence[Floats], base: Point) -> list[float]:
+def chi_squares(
+    problem: LeastSquaresProblem, hypothesis: Hypothesis | None, tried: Sequence[Floats], base: ParameterPoint
+) -> list[float]:
     """Sums of squares at some coefficients (k,); infinite where the model cannot be simulated."""
-    found = problem.attempts(*(point_of(hypothesis, list(x), base) for x in tried))
+    found = problem.attempts(*(point_at(hypothesis, list(x), base) for x in tried))
     return [float(np.sum(problem.residual(at) ** 2)) if at else float("inf") for at in found]

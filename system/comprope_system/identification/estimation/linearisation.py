@@ -14,30 +14,30 @@ from comprope.rope.simulator.rope import values_of
 
 from ..data.campaign import Channel, Run
 from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import CLOCK, NUISANCES, Direction
-from ..prediction.parameter_point import Point, Predictions
-from ..prediction.replay import referred
+from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS, Direction
+from ..prediction.parameter_point import ParameterPoint, Predictions
+from ..prediction.replay import relative_to_rest
 from ..prediction.replay_sensitivities import replay_with_sensitivities
-from .weighted_least_squares import Problem
+from .weighted_least_squares import LeastSquaresProblem
 
 Floats = NDArray[np.float64]
 Tangents = tuple[dict[str, Floats], dict[int, dict[str, Floats]]]
 STEP = 1e-4  # of a coefficient, by which it is read off what parameters it moves
 
 
-def directions_of(hypothesis: Hypothesis | None) -> list[Direction]:
+def fit_directions(hypothesis: Hypothesis | None) -> list[Direction]:
     """The directions of a fit: the plant's, then the effect's."""
-    return [*NUISANCES, *(hypothesis.directions if hypothesis else ())]
+    return [*PLANT_PARAMETERS, *(hypothesis.directions if hypothesis else ())]
 
 
-def point_of(hypothesis: Hypothesis | None, coefficients: Sequence[float], base: Point) -> Point:
+def point_at(hypothesis: Hypothesis | None, coefficients: Sequence[float], base: ParameterPoint) -> ParameterPoint:
     """The point of these coefficients, beside the effects that `base` has."""
-    names = [one.name for one in NUISANCES]
+    names = [one.name for one in PLANT_PARAMETERS]
     plant = replace(base, plant=dict(zip(names, map(float, coefficients[: len(names)]), strict=True)))
     return with_effect(plant, hypothesis, [float(c) for c in coefficients[len(names) :]]) if hypothesis else plant
 
 
-def with_effect(point: Point, hypothesis: Hypothesis, coefficients: Sequence[float]) -> Point:
+def with_effect(point: ParameterPoint, hypothesis: Hypothesis, coefficients: Sequence[float]) -> ParameterPoint:
     """The point with an effect of these coefficients beside those it has."""
     own = list(coefficients)
     return replace(
@@ -51,15 +51,17 @@ def _merged(
     return {file: {**first.get(file, {}), **second.get(file, {})} for file in dict.fromkeys([*first, *second])}
 
 
-def linearised(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base: Point) -> tuple[Predictions, Floats]:
+def linearise(
+    problem: LeastSquaresProblem, hypothesis: Hypothesis | None, x: Floats, base: ParameterPoint
+) -> tuple[Predictions, Floats]:
     """Predictions at the coefficients x (k,), and their derivatives (N, k), from one replay of each run.
 
     Raises `SimulationError` where the model cannot be simulated there.
     """
-    here, directions = problem.held_back(point_of(hypothesis, list(x), base)), directions_of(hypothesis)
+    here, directions = problem.with_held_fixed(point_at(hypothesis, list(x), base)), fit_directions(hypothesis)
     steps = [STEP if c + STEP <= one.upper else -STEP for c, one in zip(x, directions, strict=True)]
     moved = [x + step * (np.arange(len(x)) == k) for k, step in enumerate(steps)]
-    there = [problem.held_back(point_of(hypothesis, list(one), base)) for one in moved]
+    there = [problem.with_held_fixed(point_at(hypothesis, list(one), base)) for one in moved]
     campaign = problem.campaign
     jobs = [
         problem.executor.submit(tangents, campaign.model, run, campaign.channels, here, list(zip(there, steps, strict=True)))
@@ -72,19 +74,28 @@ def linearised(problem: Problem, hypothesis: Hypothesis | None, x: Floats, base:
 
 
 def _column(
-    problem: Problem, hypothesis: Hypothesis | None, here: Point, k: int, found: Mapping[str, Tangents], at: Predictions
+    problem: LeastSquaresProblem,
+    hypothesis: Hypothesis | None,
+    here: ParameterPoint,
+    k: int,
+    found: Mapping[str, Tangents],
+    at: Predictions,
 ) -> Floats:
     """Derivatives (N,) by coefficient k at the point `here`."""
-    if k < len(NUISANCES) and NUISANCES[k].name == CLOCK:
+    if k < len(PLANT_PARAMETERS) and PLANT_PARAMETERS[k].name == CLOCK:
         runs = {run.file: run for run in problem.runs}
         return problem.column({place: _by_delay(runs[place[0]], value) for place, value in at.items()})
-    if hypothesis and k >= len(NUISANCES) and hypothesis.faulty[k - len(NUISANCES)]:
-        return _by_instrument(problem, hypothesis.directions[k - len(NUISANCES)], here, at)
+    if hypothesis and k >= len(PLANT_PARAMETERS) and hypothesis.faulty[k - len(PLANT_PARAMETERS)]:
+        return _by_instrument(problem, hypothesis.directions[k - len(PLANT_PARAMETERS)], here, at)
     return problem.column({(file, column): values for file, (_, by) in found.items() for column, values in by.get(k, {}).items()})
 
 
 def tangents(
-    model: RopeModel, run: Run, channels: Mapping[str, Channel], here: Point, there: Sequence[tuple[Point, float]]
+    model: RopeModel,
+    run: Run,
+    channels: Mapping[str, Channel],
+    here: ParameterPoint,
+    there: Sequence[tuple[ParameterPoint, float]],
 ) -> Tangents:
     """Channels of a run at a point, and by k their derivatives towards there[k], a step away; none where nothing moves."""
     changes = here.changes(model, run)
@@ -105,23 +116,25 @@ def _apart(key: str, a: float, b: float) -> float:
     return remainder(a - b, 2.0 * pi) if DECLARED[key].unit == "rad" else a - b
 
 
-def by_effect(problem: Problem, hypothesis: Hypothesis, origin: Point, at: Predictions) -> Floats:
+def effect_jacobian(problem: LeastSquaresProblem, hypothesis: Hypothesis, origin: ParameterPoint, at: Predictions) -> Floats:
     """Derivatives (N, directions) by the coefficients of an effect that is not there yet; `at` are the predictions without it.
 
     Points a step away are those of `stepped`.
     """
     if hypothesis.is_instrument:
         return np.column_stack([_by_instrument(problem, one, origin, at) for one in hypothesis.directions])
-    return by_steps(problem, hypothesis, at, problem.predictions(*stepped(origin, hypothesis)))
+    return finite_difference_jacobian(problem, hypothesis, at, problem.predictions(*one_step_away(origin, hypothesis)))
 
 
-def stepped(origin: Point, hypothesis: Hypothesis) -> list[Point]:
+def one_step_away(origin: ParameterPoint, hypothesis: Hypothesis) -> list[ParameterPoint]:
     """One point for each direction of an effect, a step away, the others at zero."""
     count, step = len(hypothesis.directions), _step_of(hypothesis)
     return [with_effect(origin, hypothesis, [step * (j == k) for j in range(count)]) for k in range(count)]
 
 
-def by_steps(problem: Problem, hypothesis: Hypothesis, at: Predictions, moved: Sequence[Predictions]) -> Floats:
+def finite_difference_jacobian(
+    problem: LeastSquaresProblem, hypothesis: Hypothesis, at: Predictions, moved: Sequence[Predictions]
+) -> Floats:
     """Derivatives (N, directions) from the predictions at the points `stepped`."""
     y = problem.whitened(at)
     return np.column_stack([problem.whitened(one) - y for one in moved]) / _step_of(hypothesis)
@@ -135,7 +148,7 @@ def _step_of(hypothesis: Hypothesis) -> float:
     return 0.1 if hypothesis.polar else 1.0
 
 
-def _by_instrument(problem: Problem, direction: Direction, here: Point, at: Predictions) -> Floats:
+def _by_instrument(problem: LeastSquaresProblem, direction: Direction, here: ParameterPoint, at: Predictions) -> Floats:
     """Derivative (N,) of one channel by its gain, offset, delay or drift, from the predictions themselves."""
     ((key, size),) = direction.changes.items()
     _, effect, column = key.split(".", 2)
@@ -148,7 +161,7 @@ def _by_instrument(problem: Problem, direction: Direction, here: Point, at: Pred
             "sensor_drift": run.time - run.time[0],
             "sensor_delay": _by_delay(run, value),
         }[effect]
-        moved[run.file, column] = size * referred({column: slope}, run, problem.campaign.channels)[column]
+        moved[run.file, column] = size * relative_to_rest({column: slope}, run, problem.campaign.channels)[column]
     return problem.column(moved)
 
 

@@ -10,69 +10,71 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..hypotheses.plant_parameters import NUISANCES
-from ..prediction.parameter_point import Point, Predictions
-from ..prediction.replay import coarseness
-from .gauss_newton import Fitted, refine
-from .linearisation import directions_of, point_of
-from .weighted_least_squares import Problem, Solution, solve_in_scale
+from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.parameter_point import ParameterPoint, Predictions
+from ..prediction.replay import coarsening_factor
+from .gauss_newton import FitResult, gauss_newton
+from .linearisation import fit_directions, point_at
+from .weighted_least_squares import LeastSquaresProblem, Solution, solve_in_scale
 
 Floats = NDArray[np.float64]
-MASS = [one.name for one in NUISANCES].index("rope.mass_per_length")
+MASS = [one.name for one in PLANT_PARAMETERS].index("rope.mass_per_length")
 REACH = 0.24  # logarithm of the mass: how far from the data sheet
 APART = 0.04  # between two masses: twenty swings come out of step by 2.5 rad
 PROMISING = 0.9  # of the misfit: what another mass must promise
 LEFT = 1.05  # misfit per datum above which there is something to look for
 
 
-def in_step(problem: Problem, begun: Fitted, base: Point) -> Floats | None:
+def _start_at_better_mass(problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint) -> Floats | None:
     """Coefficients (k,) with a mass that brings the model into step; None where no other mass promises to."""
-    here = begun.coefficients
-    present = float(here[MASS])
-    if _refitted(problem, begun, begun.predictions, here).misfit < LEFT * len(problem.data):
+    here = initial_fit.coefficients
+    current = float(here[MASS])
+    if _refit_linearised(problem, initial_fit, initial_fit.predictions, here).chi_square < LEFT * len(problem.data):
         return None
-    looks = at_masses(problem, begun, base, _masses(present), coarseness(problem.campaign.model))
+    looks = fits_at_masses(problem, initial_fit, base, _masses(current), coarsening_factor(problem.campaign.model))
     found = {float(x[MASS]): solution for x, _, solution in looks}
-    best = min(found, key=lambda mass: found[mass].misfit, default=present)
-    if present not in found or found[best].misfit > PROMISING * found[present].misfit:
+    best = min(found, key=lambda mass: found[mass].chi_square, default=current)
+    if current not in found or found[best].chi_square > PROMISING * found[current].chi_square:
         return None
     return found[best].coefficients
 
 
-def _masses(present: float) -> list[float]:
+def _masses(current: float) -> list[float]:
     """Masses within REACH of the data sheet's, and the present one."""
     steps = int(2.0 * REACH / APART)
-    return [present + APART * k for k in range(-steps, steps + 1) if k == 0 or abs(present + APART * k) <= REACH]
+    return [current + APART * k for k in range(-steps, steps + 1) if k == 0 or abs(current + APART * k) <= REACH]
 
 
-def at_masses(
-    problem: Problem, begun: Fitted, base: Point, masses: Sequence[float], coarse: float = 1.0
+def fits_at_masses(
+    problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint, masses: Sequence[float], coarse: float = 1.0
 ) -> list[tuple[Floats, Predictions, Solution]]:
     """The fit `begun` with each of some masses: coefficients (k,), predictions, and all refitted by the derivatives of `begun`.
 
     Masses with which the model cannot be simulated are left out.
     """
-    tried = [np.where(np.arange(len(begun.coefficients)) == MASS, mass, begun.coefficients) for mass in masses]
-    at = problem.attempts(*(point_of(begun.hypothesis, list(x), base) for x in tried), coarse=coarse)
-    return [(x, seen, _refitted(problem, begun, seen, x)) for x, seen in zip(tried, at, strict=True) if seen is not None]
+    tried = [np.where(np.arange(len(initial_fit.coefficients)) == MASS, mass, initial_fit.coefficients) for mass in masses]
+    at = problem.attempts(*(point_at(initial_fit.hypothesis, list(x), base) for x in tried), coarse=coarse)
+    return [
+        (x, seen, _refit_linearised(problem, initial_fit, seen, x)) for x, seen in zip(tried, at, strict=True) if seen is not None
+    ]
 
 
-def _refitted(problem: Problem, begun: Fitted, predictions: Predictions, x: Floats) -> Solution:
+def _refit_linearised(problem: LeastSquaresProblem, initial_fit: FitResult, predictions: Predictions, x: Floats) -> Solution:
     """All coefficients refitted about x by the derivatives of `begun`."""
-    return solve_in_scale(problem.residual(predictions), begun.by, directions_of(begun.hypothesis), x)
+    return solve_in_scale(problem.residual(predictions), initial_fit.jacobian, fit_directions(initial_fit.hypothesis), x)
 
 
-def refitted(problem: Problem, begun: Fitted, base: Point) -> Fitted:
+def fit_with_mass_search(problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint) -> FitResult:
     """The best point near `begun`, or near where another mass brings it into step."""
-    start = in_step(problem, begun, base)
+    start = _start_at_better_mass(problem, initial_fit, base)
     if start is None:
-        return refine(problem, begun.hypothesis, begun.coefficients, base, begun=begun)
-    return refine(problem, begun.hypothesis, start, base)
+        return gauss_newton(problem, initial_fit.hypothesis, initial_fit.coefficients, base, initial_fit=initial_fit)
+    return gauss_newton(problem, initial_fit.hypothesis, start, base)
 
 
-def brought_into_step(problem: Problem, fitted: Fitted, base: Point) -> Fitted:
+def search_rope_mass(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:
     """The fit, or a better one with another mass."""
-    start = in_step(problem, fitted, base)
+    start = _start_at_better_mass(problem, fitted, base)
     if start is None:
         return fitted
-    return min(fitted, refine(problem, fitted.hypothesis, start, base, fitted.misfit), key=lambda one: one.misfit)
+    return min(fitted, gauss_newton(problem, fitted.hypothesis, start, base, fitted.chi_square), key=lambda one: one.chi_square)

@@ -14,60 +14,60 @@ from comprope.rope.simulator.rope import values_of
 
 from ..data.campaign import Campaign
 from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import CLOCK, NUISANCES
-from .gauss_newton import Fitted
-from .model_score import LOOKS
+from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
+from .gauss_newton import FitResult
+from .model_score import EFFECTIVE_SAMPLES
 from .weighted_least_squares import scale_of
 
 CONFIDENCE = 1.96  # standard deviations of a 95 % interval
 
 
 @dataclass(frozen=True)
-class Value:
+class Estimate:
     """A fitted value [SI], its standard deviation, the bounds of its 95 % interval, and what the file said."""
 
     value: float
-    deviation: float
+    standard_error: float
     low: float
     high: float
     before: float | None = None
 
-    def told(self) -> str:
+    def formatted(self) -> str:
         """The value with its standard deviation, to as many digits as make sense."""
-        if not isfinite(self.deviation) or self.deviation <= 0.0:
+        if not isfinite(self.standard_error) or self.standard_error <= 0.0:
             return f"{self.value:.4g}"
-        if abs(self.value) < 1e-3 * self.deviation:
-            return f"0 ± {self.deviation:.2g}"
-        digits = max(0, int(np.ceil(np.log10(max(abs(self.value), self.deviation) / self.deviation))) + 1)
-        return f"{self.value:.{min(max(digits, 2), 6)}g} ± {self.deviation:.2g}"
+        if abs(self.value) < 1e-3 * self.standard_error:
+            return f"0 ± {self.standard_error:.2g}"
+        digits = max(0, int(np.ceil(np.log10(max(abs(self.value), self.standard_error) / self.standard_error))) + 1)
+        return f"{self.value:.{min(max(digits, 2), 6)}g} ± {self.standard_error:.2g}"
 
     def to_json(self) -> dict[str, float | None]:
         """Value, standard deviation and 95 % interval."""
-        return {"value": self.value, "deviation": self.deviation, "low": self.low, "high": self.high, "before": self.before}
+        return {"value": self.value, "deviation": self.standard_error, "low": self.low, "high": self.high, "before": self.before}
 
 
-def widening(fitted: Fitted, count: int) -> float:
+def standard_error_scale(fitted: FitResult, count: int) -> float:
     """By how much standard deviations are widened: a model that misses the data knows its parameters less well.
 
     So does one that misses them by a discrepancy which is one and the same in thousands of samples: they count as LOOKS, as in
     a score.
     """
-    return float(np.sqrt(scale_of(fitted.misfit, count) * max(1.0, count / LOOKS)))
+    return float(np.sqrt(scale_of(fitted.chi_square, count) * max(1.0, count / EFFECTIVE_SAMPLES)))
 
 
-def effect_results(fitted: Fitted, scale: float = 1.0) -> dict[str, Value]:
+def effect_estimates(fitted: FitResult, scale: float = 1.0) -> dict[str, Estimate]:
     """Every value that the fit's effects set, with its uncertainty, by its key in the model file."""
-    found: dict[str, Value] = {}
-    at = len(NUISANCES)
-    for part, own in fitted.hypothesis.shares(fitted.effect_coefficients) if fitted.hypothesis else []:
+    found: dict[str, Estimate] = {}
+    at = len(PLANT_PARAMETERS)
+    for part, own in fitted.hypothesis.split_coefficients(fitted.effect_coefficients) if fitted.hypothesis else []:
         covariance = scale**2 * fitted.covariance[at : at + len(own), at : at + len(own)]
         at += len(own)
         values = part.parameters(own)
-        found |= {key: _value(key, value, _deviation(part, own, covariance, key)) for key, value in values.items()}
+        found |= {key: _value(key, value, _standard_error(part, own, covariance, key)) for key, value in values.items()}
     return found
 
 
-def _deviation(part: Hypothesis, own: Sequence[float], covariance: NDArray[np.float64], key: str) -> float:
+def _standard_error(part: Hypothesis, own: Sequence[float], covariance: NDArray[np.float64], key: str) -> float:
     """Standard deviation of a value by the derivatives of it by the coefficients, to first order."""
     by = np.array([one.changes.get(key, 0.0) for one in part.directions])
     if part.polar and key in part.polar:
@@ -77,11 +77,11 @@ def _deviation(part: Hypothesis, own: Sequence[float], covariance: NDArray[np.fl
     return float(np.sqrt(max(by @ covariance @ by, 0.0)))
 
 
-def _value(key: str, value: float, deviation: float) -> Value:
+def _value(key: str, value: float, standard_error: float) -> Estimate:
     declared = _declared(key)
     low, high = (declared.minimum, declared.maximum) if declared else (-float("inf"), float("inf"))
-    reach = CONFIDENCE * deviation
-    return Value(value, deviation, max(value - reach, low), min(value + reach, high))
+    reach = CONFIDENCE * standard_error
+    return Estimate(value, standard_error, max(value - reach, low), min(value + reach, high))
 
 
 def unit_of(effect: str, name: str) -> str:
@@ -96,25 +96,25 @@ def _declared(key: str) -> Quantity | None:
     return next((one for one in quantities(REGISTRY[name]) if one.name == short), None) if name in REGISTRY else None
 
 
-def plant_results(campaign: Campaign, fitted: Fitted, scale: float = 1.0) -> dict[str, Value]:
+def plant_estimates(campaign: Campaign, fitted: FitResult, scale: float = 1.0) -> dict[str, Estimate]:
     """The refitted plant by model key; values of the model file, which a run may replace."""
     base, found = values_of(campaign.model) | {CLOCK: 0.0}, {}
-    for k, one in enumerate(NUISANCES):
-        c, deviation = float(fitted.coefficients[k]), scale * float(fitted.covariance[k, k]) ** 0.5
+    for k, one in enumerate(PLANT_PARAMETERS):
+        c, standard_error = float(fitted.coefficients[k]), scale * float(fitted.covariance[k, k]) ** 0.5
         place = (lambda x, at=base[one.name]: at * exp(x)) if one.relative else (lambda x, at=base[one.name]: at + x)
         least = 0.0 if one.changes else -float("inf")
-        value, low, high = (max(place(c + x), least) for x in (0.0, -CONFIDENCE * deviation, CONFIDENCE * deviation))
-        found[one.name] = Value(value, deviation * (value if one.relative else 1.0), low, high, base[one.name])
+        value, low, high = (max(place(c + x), least) for x in (0.0, -CONFIDENCE * standard_error, CONFIDENCE * standard_error))
+        found[one.name] = Estimate(value, standard_error * (value if one.relative else 1.0), low, high, base[one.name])
     return found
 
 
-def set_by_runs(campaign: Campaign) -> set[str]:
+def keys_set_by_runs(campaign: Campaign) -> set[str]:
     """Model keys that some run replaces: a model file cannot change them."""
     return {key for run in campaign.runs for key in run.changes}
 
 
-def model_of(campaign: Campaign, fitted: Fitted) -> RopeModel:
+def fitted_model(campaign: Campaign, fitted: FitResult) -> RopeModel:
     """The model with the fitted plant and effects; what runs replace stays as the file has it, and clocks are no model's."""
-    replaced = set_by_runs(campaign) | {CLOCK}
-    plant = {key: one.value for key, one in plant_results(campaign, fitted).items() if key not in replaced}
+    replaced = keys_set_by_runs(campaign) | {CLOCK}
+    plant = {key: one.value for key, one in plant_estimates(campaign, fitted).items() if key not in replaced}
     return with_changes(campaign.model, plant | dict(fitted.point.effects), "fit")

@@ -12,33 +12,35 @@ from numpy.typing import NDArray
 
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import Direction
-from .gauss_newton import Fitted
-from .linearisation import directions_of
-from .weighted_least_squares import Problem, solve_in_scale
+from .gauss_newton import FitResult
+from .linearisation import fit_directions
+from .weighted_least_squares import LeastSquaresProblem, solve_in_scale
 
 Floats = NDArray[np.float64]
 SPREAD = 1.0  # rad: prior standard deviation of a run's phase about the common one
 
 
-def with_own_phases(hypothesis: Hypothesis, files: Sequence[str]) -> Hypothesis:
+def with_per_run_phases(hypothesis: Hypothesis, files: Sequence[str]) -> Hypothesis:
     """The hypothesis with a phase for each of the runs."""
     assert hypothesis.polar is not None
     own = tuple(Direction(f"{hypothesis.polar[1]}@{file}", {}, SPREAD, -np.pi, np.pi) for file in files)
-    return replace(hypothesis, directions=(*hypothesis.directions, *own), turned=tuple(files))
+    return replace(hypothesis, directions=(*hypothesis.directions, *own), phase_runs=tuple(files))
 
 
-def solve_turned(problem: Problem, at: Fitted, by: Floats, hypothesis: Hypothesis) -> tuple[Hypothesis, Floats, float]:
+def solve_per_run_phases(
+    problem: LeastSquaresProblem, at: FitResult, by: Floats, hypothesis: Hypothesis
+) -> tuple[Hypothesis, Floats, float]:
     """The hypothesis with own phases, coefficients (those of the fit `at` first), and the misfit, by one linear solve.
 
     `by` (N, 2) are derivatives by the cosine and the sine.
     """
     pairs = np.hstack([by * rows[:, None] for rows in problem.rows_of_runs])
-    count, others, residual = len(problem.runs), directions_of(at.hypothesis), problem.residual(at.predictions)
+    count, others, residual = len(problem.runs), fit_directions(at.hypothesis), problem.residual(at.predictions)
     begin = np.concatenate([at.coefficients, np.zeros(2 * count)])
-    solution = solve_in_scale(residual, np.hstack([at.by, pairs]), [*others, *hypothesis.directions * count], begin)
+    solution = solve_in_scale(residual, np.hstack([at.jacobian, pairs]), [*others, *hypothesis.directions * count], begin)
     z = np.array([complex(*pair) for pair in solution.coefficients[len(others) :].reshape(count, 2)])
     mean = z.sum() if abs(z.sum()) > 0.0 else complex(1.0)
     common = float(np.abs(z).mean()) * mean / abs(mean)
     turns = np.where(np.abs(z) > 0.0, np.angle(z / mean), 0.0)
     found = np.concatenate([solution.coefficients[: len(others)], [common.real, common.imag], turns])
-    return with_own_phases(hypothesis, [run.file for run in problem.runs]), found, solution.misfit
+    return with_per_run_phases(hypothesis, [run.file for run in problem.runs]), found, solution.chi_square

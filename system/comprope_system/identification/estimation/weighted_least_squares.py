@@ -12,16 +12,16 @@ from scipy.optimize import lsq_linear
 from comprope.errors import SimulationError
 
 from ..data.campaign import Campaign, Run
-from ..data.whitening import Part, part, stack
+from ..data.whitening import WhitenedChannel, stack, whiten_channel
 from ..hypotheses.plant_parameters import Direction
-from ..prediction.parameter_point import Point, Predictions, gathered, submit
-from ..prediction.replay import referred
+from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
+from ..prediction.replay import relative_to_rest
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Problem:
+class LeastSquaresProblem:
     """Some runs of a campaign, binned and weighed. `data` (N,) is whitened; its expected square is N.
 
     `held` are plant parameters that stay as runs state them, `ruled_out` effects that are not asked about.
@@ -29,20 +29,20 @@ class Problem:
 
     campaign: Campaign
     runs: tuple[Run, ...]
-    parts: list[Part]
+    whitened_channels: list[WhitenedChannel]
     data: Floats
     executor: Executor
     held: frozenset[str] = frozenset()
     ruled_out: frozenset[str] = frozenset()
 
-    def held_back(self, point: Point) -> Point:
+    def with_held_fixed(self, point: ParameterPoint) -> ParameterPoint:
         """The point without the plant parameters that are held."""
         return replace(point, plant={name: value for name, value in point.plant.items() if name not in self.held})
 
     @cached_property
     def rows_of_runs(self) -> NDArray[np.bool_]:
         """Which data are of which run: (runs, N)."""
-        files = np.repeat([one.run for one in self.parts], [len(one.data) for one in self.parts])
+        files = np.repeat([one.run for one in self.whitened_channels], [len(one.data) for one in self.whitened_channels])
         return np.array([files == run.file for run in self.runs])
 
     @property
@@ -50,25 +50,25 @@ class Problem:
         """Duration of the longest record [s]."""
         return max(float(run.time[-1] - run.time[0]) for run in self.runs)
 
-    def predictions(self, *points: Point) -> list[Predictions]:
+    def predictions(self, *points: ParameterPoint) -> list[Predictions]:
         """The model's channels at some points, computed side by side."""
-        jobs = [submit(self.campaign, self.runs, self.held_back(point), self.executor) for point in points]
-        return [gathered(self.runs, some) for some in jobs]
+        jobs = [submit_replays(self.campaign, self.runs, self.with_held_fixed(point), self.executor) for point in points]
+        return [collect_predictions(self.runs, some) for some in jobs]
 
-    def attempts(self, *points: Point, coarse: float = 1.0) -> list[Predictions | None]:
+    def attempts(self, *points: ParameterPoint, coarse: float = 1.0) -> list[Predictions | None]:
         """As `predictions`, with elements and steps `coarse` times as long; None for points that cannot be simulated."""
-        jobs = [submit(self.campaign, self.runs, self.held_back(point), self.executor, coarse) for point in points]
+        jobs = [submit_replays(self.campaign, self.runs, self.with_held_fixed(point), self.executor, coarse) for point in points]
         return [self._attempted(some) for some in jobs]
 
     def _attempted(self, jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions | None:
         try:
-            return gathered(self.runs, jobs)
+            return collect_predictions(self.runs, jobs)
         except SimulationError:
             return None
 
     def whitened(self, predictions: Mapping[tuple[str, str], Floats]) -> Floats:
         """Predictions (N,) in the units of `data`."""
-        return stack(self.parts, predictions)
+        return stack(self.whitened_channels, predictions)
 
     def residual(self, predictions: Mapping[tuple[str, str], Floats]) -> Floats:
         """What predictions leave of `data` (N,)."""
@@ -76,21 +76,21 @@ class Problem:
 
     def column(self, values: Mapping[tuple[str, str], Floats]) -> Floats:
         """Like `whitened`, for some channels only: zero for the others."""
-        none = {(one.run, one.column): np.zeros(len(one.of)) for one in self.parts}
-        return stack(self.parts, none | dict(values))
+        none = {(one.run, one.column): np.zeros(len(one.of)) for one in self.whitened_channels}
+        return stack(self.whitened_channels, none | dict(values))
 
 
-def pose(campaign: Campaign, runs: Sequence[Run], executor: Executor, nominal: Predictions) -> Problem:
+def build_problem(campaign: Campaign, runs: Sequence[Run], executor: Executor, nominal: Predictions) -> LeastSquaresProblem:
     """Weigh the runs; bins that a sensor does not see in the nominal prediction are left out."""
-    parts = []
+    whitened_channels = []
     for run in runs:
-        measured = referred(run.values, run, campaign.channels)
+        measured = relative_to_rest(run.values, run, campaign.channels)
         for column, channel in campaign.channels.items():
-            one = part(run, channel, measured[column], np.isfinite(nominal[run.file, column]))
+            one = whiten_channel(run, channel, measured[column], np.isfinite(nominal[run.file, column]))
             if one:
-                parts.append(one)
-    data = np.concatenate([one.whiten(one.data) for one in parts]) if parts else np.zeros(0)
-    return Problem(campaign, tuple(runs), parts, data, executor)
+                whitened_channels.append(one)
+    data = np.concatenate([one.whiten(one.data) for one in whitened_channels]) if whitened_channels else np.zeros(0)
+    return LeastSquaresProblem(campaign, tuple(runs), whitened_channels, data, executor)
 
 
 @dataclass(frozen=True)
@@ -102,13 +102,11 @@ class Solution:
 
     coefficients: Floats
     cost: float
-    misfit: float
+    chi_square: float
     covariance: Floats
 
 
-def solve(
-    residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats, scale: float = 1.0
-) -> Solution:
+def solve(residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats, scale: float = 1.0) -> Solution:
     """Most likely coefficients x of residual = matrix @ (x - start) within bounds, given their priors.
 
     `scale` is what the squares of the residual stand for: with a model that misses much more than noise, priors count the more.
@@ -119,18 +117,18 @@ def solve(
     lower, upper = (np.array([getattr(one, side) for one in directions]) for side in ("lower", "upper"))
     found = lsq_linear(rows, target, (lower, upper)).x if len(prior) else prior
     left = residual - matrix @ (found - start)
-    misfit, penalty = float(left @ left), float(((found / prior) ** 2).sum())
+    chi_square, prior_penalty = float(left @ left), float(((found / prior) ** 2).sum())
     curvature = np.eye(len(prior)) + prior[:, None] * (matrix.T @ matrix) * prior
     covariance = prior[:, None] * np.linalg.inv(curvature) * prior
-    return Solution(found, misfit + scale * penalty, misfit, covariance)
+    return Solution(found, chi_square + scale * prior_penalty, chi_square, covariance)
 
 
 def solve_in_scale(residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats) -> Solution:
     """As `solve`, in the scale of what is left even so."""
     sharp = solve(residual, matrix, directions, start)
-    return solve(residual, matrix, directions, start, scale_of(sharp.misfit, len(residual)))
+    return solve(residual, matrix, directions, start, scale_of(sharp.chi_square, len(residual)))
 
 
-def scale_of(misfit: float, count: int) -> float:
+def scale_of(chi_square: float, count: int) -> float:
     """What the squares of a residual stand for: noise, or whatever is more."""
-    return max(1.0, misfit / max(count, 1))
+    return max(1.0, chi_square / max(count, 1))

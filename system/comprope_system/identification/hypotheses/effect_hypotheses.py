@@ -33,9 +33,9 @@ class Hypothesis:
     polar: tuple[str, str] | None = None
     base: float = 0.0
     parts: tuple["Hypothesis", ...] = ()
-    turned: tuple[str, ...] = ()
+    phase_runs: tuple[str, ...] = ()
 
-    def shares(self, coefficients: list[float]) -> list[tuple["Hypothesis", list[float]]]:
+    def split_coefficients(self, coefficients: list[float]) -> list[tuple["Hypothesis", list[float]]]:
         """Each effect with its own coefficients."""
         found, at = [], 0
         for part in self.parts or (self,):
@@ -56,8 +56,8 @@ class Hypothesis:
     def shifts(self, coefficients: list[float]) -> dict[str, dict[str, float]]:
         """What is added to values in single runs, by the run's file."""
         found: dict[str, dict[str, float]] = {}
-        for part, own in self.shares(coefficients):
-            for file, shift in zip(part.turned, own[2:], strict=False):
+        for part, own in self.split_coefficients(coefficients):
+            for file, shift in zip(part.phase_runs, own[2:], strict=False):
                 assert part.polar is not None
                 found.setdefault(file, {})[part.polar[1]] = shift
         return found
@@ -65,7 +65,9 @@ class Hypothesis:
     def parameters(self, coefficients: list[float]) -> dict[str, float]:
         """Values of model keys for coefficients of the directions."""
         if self.parts:
-            return {key: value for part, own in self.shares(coefficients) for key, value in part.parameters(own).items()}
+            return {
+                key: value for part, own in self.split_coefficients(coefficients) for key, value in part.parameters(own).items()
+            }
         values: dict[str, float] = {}
         for direction, coefficient in zip(self.directions, coefficients, strict=True):
             for key, amount in direction.changes.items():
@@ -76,12 +78,12 @@ class Hypothesis:
         return dict(self.fixed) | values
 
 
-def hypotheses(model: RopeModel, frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
+def effect_hypotheses(model: RopeModel, frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
     """All hypotheses about effects that the model may have; `frequencies` [Hz] are tried where an effect has one."""
-    return [one for name in names_of(model) for one in of_effect(REGISTRY[name], frequencies)]
+    return [one for name in names_of(model) for one in hypotheses_of_effect(REGISTRY[name], frequencies)]
 
 
-def of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypothesis]:
+def hypotheses_of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypothesis]:
     """One hypothesis for each combination of the values to try."""
     tried = dict(effect.probes)
     declared = {one.name: one for one in quantities(effect)}
@@ -97,7 +99,7 @@ def of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypo
     return found
 
 
-def together(*effects: Hypothesis) -> Hypothesis:
+def combine(*effects: Hypothesis) -> Hypothesis:
     """All these effects at once."""
     parts = tuple(part for one in effects for part in one.parts or (one,))
     if len(parts) == 1:
@@ -106,7 +108,7 @@ def together(*effects: Hypothesis) -> Hypothesis:
     return Hypothesis(" + ".join(dict.fromkeys(part.effect for part in parts)), directions, parts=parts)
 
 
-def of_instruments(channels: Mapping[str, Channel]) -> list[Hypothesis]:
+def instrument_hypotheses(channels: Mapping[str, Channel]) -> list[Hypothesis]:
     """One hypothesis for each fault of each channel; an offset shows only where the channel is absolute."""
     found = []
     for column, channel in channels.items():

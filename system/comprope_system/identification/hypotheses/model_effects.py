@@ -14,7 +14,7 @@ from comprope.rope.simulator.rope import values_of
 from comprope.validation_messages import suggestion
 
 from ..data.campaign import Campaign, Channel
-from .effect_hypotheses import Hypothesis, of_effect, of_instruments, together
+from .effect_hypotheses import Hypothesis, combine, hypotheses_of_effect, instrument_hypotheses
 from .plant_parameters import Direction
 
 Floats = NDArray[np.float64]
@@ -31,7 +31,7 @@ def effect_values(model: RopeModel) -> dict[str, float]:
     return found
 
 
-def present(campaign: Campaign) -> tuple[Hypothesis | None, Floats]:
+def effects_in_model(campaign: Campaign) -> tuple[Hypothesis | None, Floats]:
     """All effects of the campaign's model as one hypothesis, None if it has none, and their coefficients."""
     values = effect_values(campaign.model)
     names = sorted(
@@ -39,12 +39,12 @@ def present(campaign: Campaign) -> tuple[Hypothesis | None, Floats]:
         key=lambda name: (name in INSTRUMENT, list(REGISTRY).index(name) if name in REGISTRY else 0),
     )
     found = [one for name in names for one in _as_hypotheses(name, values, campaign.channels)]
-    return joined([one for one, _ in found]), np.array([c for _, own in found for c in own], float)
+    return combined_or_none([one for one, _ in found]), np.array([c for _, own in found for c in own], float)
 
 
-def joined(parts: Sequence[Hypothesis]) -> Hypothesis | None:
+def combined_or_none(parts: Sequence[Hypothesis]) -> Hypothesis | None:
     """Several effects as one hypothesis, in this order; where two set the same value the later one does."""
-    return together(*parts) if parts else None
+    return combine(*parts) if parts else None
 
 
 def _as_hypotheses(
@@ -53,12 +53,12 @@ def _as_hypotheses(
     if name in INSTRUMENT:
         return [
             (one, coefficients_of(one, values))
-            for one in of_instruments(channels)
+            for one in instrument_hypotheses(channels)
             if one.effect == name and one.directions[0].name in values
         ]
     own = {key: value for key, value in values.items() if key.startswith(f"effects.{name}.")}
-    tried = [_at(one, own) for one in of_effect(REGISTRY[name], (own.get(f"effects.{name}.frequency", 1.0),))]
-    return [min(((one, coefficients_of(one, own)) for one in tried), key=_strain)]
+    tried = [_at(one, own) for one in hypotheses_of_effect(REGISTRY[name], (own.get(f"effects.{name}.frequency", 1.0),))]
+    return [min(((one, coefficients_of(one, own)) for one in tried), key=_distance_from_typical)]
 
 
 def _at(one: Hypothesis, own: Mapping[str, float]) -> Hypothesis:
@@ -77,7 +77,7 @@ def coefficients_of(one: Hypothesis, values: Mapping[str, float]) -> list[float]
     return [(values[direction.name] - one.base) / direction.changes[direction.name] for direction in one.directions]
 
 
-def _strain(found: tuple[Hypothesis, list[float]]) -> float:
+def _distance_from_typical(found: tuple[Hypothesis, list[float]]) -> float:
     """How far coefficients are from typical ones, infinitely where they are out of bounds."""
     total = 0.0
     for direction, c in zip(found[0].directions, found[1], strict=True):
@@ -85,7 +85,7 @@ def _strain(found: tuple[Hypothesis, list[float]]) -> float:
     return total if isfinite(total) else 1e300
 
 
-def shape_of(one: Hypothesis, longest: float) -> Hypothesis | None:
+def shape_hypothesis(one: Hypothesis, longest: float) -> Hypothesis | None:
     """What else of an effect can be fitted once its amplitude is known: a frequency, a yield curvature; None if nothing.
 
     `longest` is the duration [s] of the longest run, which tells how sharply a frequency shows.
@@ -107,10 +107,10 @@ def shape_of(one: Hypothesis, longest: float) -> Hypothesis | None:
     return Hypothesis(one.effect, (direction,), base=value)
 
 
-def shapes_of(parts: Sequence[Hypothesis], longest: float) -> list[Hypothesis]:
+def shape_hypotheses(parts: Sequence[Hypothesis], longest: float) -> list[Hypothesis]:
     """What else can be fitted of those effects whose shape is not free already, as a part of its own."""
     names = [part.effect for part in parts]
-    return [shape for part in parts if names.count(part.effect) == 1 and (shape := shape_of(part, longest))]
+    return [shape for part in parts if names.count(part.effect) == 1 and (shape := shape_hypothesis(part, longest))]
 
 
 def require_effects(names: Sequence[str]) -> None:
@@ -121,7 +121,7 @@ def require_effects(names: Sequence[str]) -> None:
         raise InputError("; ".join(problems))
 
 
-def alternatives(effect: str, campaign: Campaign, frequencies: tuple[float, ...]) -> list[Hypothesis]:
+def hypotheses_named(effect: str, campaign: Campaign, frequencies: tuple[float, ...]) -> list[Hypothesis]:
     """The ways in which a named effect may act; an instrument's fault on every channel, or on one: `sensor_gain.cw_low`.
 
     Raises InputError for another name.
@@ -131,8 +131,8 @@ def alternatives(effect: str, campaign: Campaign, frequencies: tuple[float, ...]
     if name not in known or (column and name not in INSTRUMENT):
         raise InputError(f"{effect}: not an effect; {suggestion(name, known)}")
     if name in REGISTRY:
-        return of_effect(REGISTRY[name], frequencies)
-    faults = [one for one in of_instruments(campaign.channels) if one.effect == name]
+        return hypotheses_of_effect(REGISTRY[name], frequencies)
+    faults = [one for one in instrument_hypotheses(campaign.channels) if one.effect == name]
     found = [one for one in faults if not column or one.directions[0].name == f"effects.{effect}"]
     if not found:
         columns = [one.directions[0].name.split(".", 2)[2] for one in faults]
@@ -140,16 +140,18 @@ def alternatives(effect: str, campaign: Campaign, frequencies: tuple[float, ...]
     return found
 
 
-def name_of(part: Hypothesis) -> str:
+def effect_name(part: Hypothesis) -> str:
     """The effect's name; of an instrument's fault with its channel."""
     return part.directions[0].name.removeprefix("effects.") if part.is_instrument else part.effect
 
 
-def grouped(hypothesis: Hypothesis | None, coefficients: Sequence[float]) -> dict[str, list[tuple[Hypothesis, list[float]]]]:
+def components_by_effect(
+    hypothesis: Hypothesis | None, coefficients: Sequence[float]
+) -> dict[str, list[tuple[Hypothesis, list[float]]]]:
     """The parts of a hypothesis with their coefficients, by the name of the effect they belong to."""
     found: dict[str, list[tuple[Hypothesis, list[float]]]] = {}
-    for part, own in hypothesis.shares(list(coefficients)) if hypothesis else []:
-        found.setdefault(name_of(part), []).append((part, own))
+    for part, own in hypothesis.split_coefficients(list(coefficients)) if hypothesis else []:
+        found.setdefault(effect_name(part), []).append((part, own))
     return found
 
 

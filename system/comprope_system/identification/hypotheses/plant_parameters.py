@@ -25,7 +25,7 @@ def _plant(key: str, prior: float) -> Direction:
 
 CLOCK = "clock.offset"
 # How well a plant's data sheet is usually known: relative standard deviations.
-NUISANCES = (
+PLANT_PARAMETERS = (
     _plant("rope.bending_stiffness", 0.15),
     _plant("rope.bending_damping", 0.4),
     _plant("rope.mass_per_length", 0.1),

@@ -13,11 +13,12 @@ from ...report.json_output import plain
 from ..comparison.compare import Comparison, compare
 from ..data.campaign import Campaign
 from ..diagnosis.diagnose import Diagnosis, diagnose
-from ..estimation.gauss_newton import Fitted
-from ..hypotheses.effect_hypotheses import together
-from ..hypotheses.model_effects import grouped
-from ..hypotheses.plant_parameters import NUISANCES
-from .add_effect import Added, Ground, Say, added, fit_new, prepare
+from ..estimation.gauss_newton import FitResult
+from ..hypotheses.effect_hypotheses import combine
+from ..hypotheses.model_effects import components_by_effect
+from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..progress import ProgressCallback, no_progress
+from .add_effect import Added, Ground, added, fit_new, prepare
 from .backward_elimination import Without, prune
 
 MOST = 4  # effects that a journey adds
@@ -30,7 +31,7 @@ class Step:
     name: str
     fit: float
     validate: float
-    misfit: float
+    reduced_chi_square: float
 
 
 @dataclass(frozen=True)
@@ -65,11 +66,14 @@ class Journey:
         """Steps, shares and the final fit."""
         found = {
             "verdict_kind": self.last.kind,
-            "effects": list(grouped(self.added.fitted.hypothesis, self.added.fitted.effect_coefficients)),
-            "steps": [{"name": s.name, "fit": s.fit, "validate": s.validate, "misfit_per_datum": s.misfit} for s in self.steps],
+            "effects": list(components_by_effect(self.added.fitted.hypothesis, self.added.fitted.effect_coefficients)),
+            "steps": [
+                {"name": s.name, "fit": s.fit, "validate": s.validate, "misfit_per_datum": s.reduced_chi_square}
+                for s in self.steps
+            ],
             "bought": [{"name": name, "share": fit, "validate_share": held} for name, fit, held in self.bought()],
             "pruned": list(self.pruned),
-            "without": {one.effect: one.fitted.misfit / max(len(self.last.problem.data), 1) for one in self.without},
+            "without": {one.effect: one.fitted.chi_square / max(len(self.last.problem.data), 1) for one in self.without},
             **self.added.to_json(),
         }  # fmt: skip
         return plain(found)
@@ -79,39 +83,41 @@ def _share(fall: float, whole: float) -> float:
     return fall / whole if whole else float("nan")
 
 
-def journey(campaign: Campaign, executor: Executor, say: Say = lambda _: None, most: int = MOST) -> Journey:
+def journey(campaign: Campaign, executor: Executor, report_progress: ProgressCallback = no_progress, most: int = MOST) -> Journey:
     """Add what is missing, one verdict after the other, until the model is adequate or nothing known helps."""
-    ground = prepare(campaign, executor, say)
+    ground = prepare(campaign, executor, report_progress)
     before = compare(campaign, executor)
     steps = [Step("as it stands", before.fit_nrmse, before.validate_nrmse, float("nan"))]
-    fitted: Fitted = ground.fitted
+    fitted: FitResult = ground.fitted
     steps.append(_step(ground, "plant refitted", fitted, executor))
     found: list[Diagnosis] = []
     while True:
-        found.append(diagnose(campaign, executor, say, replace(fitted.point, plant={})))
+        found.append(diagnose(campaign, executor, report_progress, replace(fitted.point, plant={})))
         if found[-1].verdict is None or len(steps) > most + 1:
             break
-        for name, step in _each(ground, found[-1], fitted, say):
+        for name, step in _each(ground, found[-1], fitted, report_progress):
             fitted = step
             steps.append(_step(ground, name, fitted, executor))
-    names = set(grouped(fitted.hypothesis, fitted.effect_coefficients))
-    fitted, without = prune(ground, fitted, say)
-    kept = list(grouped(fitted.hypothesis, fitted.effect_coefficients))
+    names = set(components_by_effect(fitted.hypothesis, fitted.effect_coefficients))
+    fitted, without = prune(ground, fitted, report_progress)
+    kept = list(components_by_effect(fitted.hypothesis, fitted.effect_coefficients))
     whole = added(ground, " + ".join(kept) or "nothing", fitted, executor)
     return Journey(tuple(steps), tuple(found), tuple(sorted(names - set(kept))), tuple(without), whole)
 
 
-def _step(ground: Ground, name: str, fitted: Fitted, executor: Executor) -> Step:
+def _step(ground: Ground, name: str, fitted: FitResult, executor: Executor) -> Step:
     found: Comparison = compare(ground.campaign, executor, fitted.point, fitted.predictions)
-    return Step(name, found.fit_nrmse, found.validate_nrmse, fitted.misfit / max(len(ground.problem.data), 1))
+    return Step(name, found.fit_nrmse, found.validate_nrmse, fitted.chi_square / max(len(ground.problem.data), 1))
 
 
-def _each(ground: Ground, found: Diagnosis, fitted: Fitted, say: Say) -> Iterator[tuple[str, Fitted]]:
+def _each(
+    ground: Ground, found: Diagnosis, fitted: FitResult, report_progress: ProgressCallback
+) -> Iterator[tuple[str, FitResult]]:
     """The verdict's effects added one after the other, so that each shows what it buys."""
     best = found.ranking[0].fitted
-    plant = best.coefficients[: len(NUISANCES)]
-    for name, parts in grouped(best.hypothesis, best.effect_coefficients).items():
-        say(f"{name}, with all others")
+    plant = best.coefficients[: len(PLANT_PARAMETERS)]
+    for name, parts in components_by_effect(best.hypothesis, best.effect_coefficients).items():
+        report_progress(f"{name}, with all others")
         start = np.concatenate([plant, *(own for _, own in parts)])
-        fitted = fit_new(ground, together(*(part for part, _ in parts)), start, fitted)
+        fitted = fit_new(ground, combine(*(part for part, _ in parts)), start, fitted)
         yield name, fitted

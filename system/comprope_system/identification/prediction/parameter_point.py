@@ -14,7 +14,7 @@ from comprope.rope.runtime.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import values_of
 
 from ..data.campaign import Campaign, Channel, Run
-from ..hypotheses.plant_parameters import CLOCK, NUISANCES
+from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
 from .replay import STEP, replay
 
 Floats = NDArray[np.float64]
@@ -22,7 +22,7 @@ Predictions = dict[tuple[str, str], Floats]
 
 
 @dataclass(frozen=True)
-class Point:
+class ParameterPoint:
     """Nuisance coefficients by name (0: as the model file has it), and model keys that effects set.
 
     `shifts` are added to such keys in single runs, by the run's file.
@@ -42,7 +42,7 @@ class Point:
             known = model.effects.sensor_delay or {}
             keys = {f"effects.sensor_delay.{column}": known.get(column, 0.0) for column in run.values}
             changed |= {key: changed.get(key, delay) + late for key, delay in keys.items()}
-        for one in NUISANCES:
+        for one in PLANT_PARAMETERS:
             if (coefficient := self.plant.get(one.name, 0.0)) and one.changes:
                 value = base[one.name] * exp(coefficient) if one.relative else base[one.name] + coefficient
                 # A fit may lean on a parameter that it cannot see; it must not leave what a model accepts.
@@ -50,15 +50,15 @@ class Point:
         return changed
 
 
-def submit(
-    campaign: Campaign, runs: Sequence[Run], point: Point, executor: Executor, coarse: float = 1.0
+def submit_replays(
+    campaign: Campaign, runs: Sequence[Run], point: ParameterPoint, executor: Executor, coarse: float = 1.0
 ) -> list[Future[dict[str, Floats]]]:
     """Start the replays of some runs at a point, with elements and steps `coarse` times as long."""
-    there = [moved(campaign.model, run, point, coarse) for run in runs]
+    there = [run_at_point(campaign.model, run, point, coarse) for run in runs]
     return [executor.submit(predict, campaign.model, run, campaign.channels, coarse * STEP) for run in there]
 
 
-def moved(model: RopeModel, run: Run, point: Point, coarse: float = 1.0) -> Run:
+def run_at_point(model: RopeModel, run: Run, point: ParameterPoint, coarse: float = 1.0) -> Run:
     """The run with all that differs from the model file at a point, with elements `coarse` times as long."""
     length = {"rope.element_length": coarse * model.rope.element_length} if coarse != 1.0 else {}
     return replace(run, changes=point.changes(model, run) | length)
@@ -69,6 +69,6 @@ def predict(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: f
     return replay(model, run, channels, step).values
 
 
-def gathered(runs: Sequence[Run], jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions:
+def collect_predictions(runs: Sequence[Run], jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions:
     """Predictions of runs by (file, column)."""
     return {(run.file, column): value for run, job in zip(runs, jobs, strict=True) for column, value in job.result().items()}

@@ -42,10 +42,10 @@ def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: fl
         hidden = np.interp(run.time, grid, seen[column][:, 1]) < 1.0
         values[column] = np.where(hidden, np.nan, whole)
     shown = {column: instrument(changed, column, run.time, value) for column, value in values.items()}
-    return Replay(referred(shown, run, channels), rope.count["newton"], rope.count["halved"])
+    return Replay(relative_to_rest(shown, run, channels), rope.count["newton"], rope.count["halved"])
 
 
-def coarseness(model: RopeModel) -> float:
+def coarsening_factor(model: RopeModel) -> float:
     """How much longer elements may be for a first look: twice, where that still bends round the sheave."""
     return 2.0 if 2.0 * model.rope.element_length <= COARSEST * model.sheave.radius else 1.0
 
@@ -68,7 +68,7 @@ def _delayed(time: Floats, value: Floats, delay: float) -> Floats:
     return np.where(known, np.interp(time - delay, time[known], value[known]), np.nan)
 
 
-def referred(values: dict[str, Floats], run: Run, channels: Mapping[str, Channel]) -> dict[str, Floats]:
+def relative_to_rest(values: dict[str, Floats], run: Run, channels: Mapping[str, Channel]) -> dict[str, Floats]:
     """Values less their mean before the trip, where the channel counts from rest."""
     rest = run.rest
     return {

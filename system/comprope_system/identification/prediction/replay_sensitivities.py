@@ -13,7 +13,7 @@ from comprope.rope.simulator.rope import values_of
 from comprope.rope.simulator.sensitive_rope import SensitiveRope
 
 from ..data.campaign import Channel, Run
-from .replay import GRID, STEP, Floats, Replay, _paths, instrument, referred
+from .replay import GRID, STEP, Floats, Replay, _paths, instrument, relative_to_rest
 
 FORCES = ("force", "tension")
 GROWN = 1e100  # more than a derivative ever is, and its square still a number
@@ -49,8 +49,8 @@ def replay_with_sensitivities(
     shown = {column: instrument(changed, column, run.time, values[:, 0]) for column, values in sampled.items()}
     derivatives = {name: {column: values[:, k] for column, values in sampled.items()} for k, name in enumerate(rope.names, 1)}
     count = rope.rope.count
-    return Replay(referred(shown, run, channels), count["newton"], count["halved"]), {
-        name: referred({column: _through(changed, column, run, one) for column, one in own.items()}, run, channels)
+    return Replay(relative_to_rest(shown, run, channels), count["newton"], count["halved"]), {
+        name: relative_to_rest({column: _through(changed, column, run, one) for column, one in own.items()}, run, channels)
         for name, own in derivatives.items()
     }
 

@@ -13,8 +13,8 @@ from ..comparison.compare import PLACES, ChannelComparison, Comparison, RunCompa
 from ..comparison.error_metrics import BANDS, ORDERS
 from ..data.campaign import Campaign
 from ..data.trip_phases import phases
-from ..residuals.input_estimation import ResidualForce
-from ..residuals.residual_correlation import Clue
+from ..residuals.input_estimation import InputEstimation
+from ..residuals.residual_correlation import ResidualCorrelation
 
 Floats = NDArray[np.float64]
 MEASURED, PHASE = SECOND, "#eef2f6"
@@ -122,37 +122,39 @@ def ranking(entries: Sequence[Mapping[str, float]], names: Sequence[str], plant:
     return figure
 
 
-def clue_bars(clues: Sequence[Clue]) -> Figure:
+def correlation_bars(correlations: Sequence[ResidualCorrelation]) -> Figure:
     """How much of the residual each coordinate accounts for."""
-    figure, (axes,) = panels(1, height=0.32 * len(clues) + 0.9)
-    places = np.arange(len(clues))[::-1]
-    axes.barh(places, [100.0 * one.share for one in clues], color=FIRST, height=0.6)
-    axes.set_yticks(places, [one.coordinate + (f" ({one.peak:.3g} {one.unit})" if one.peak is not None else "") for one in clues])
+    figure, (axes,) = panels(1, height=0.32 * len(correlations) + 0.9)
+    places = np.arange(len(correlations))[::-1]
+    axes.barh(places, [100.0 * one.share for one in correlations], color=FIRST, height=0.6)
+    axes.set_yticks(
+        places, [one.coordinate + (f" ({one.peak:.3g} {one.unit})" if one.peak is not None else "") for one in correlations]
+    )
     axes.set_xlim(0.0, 100.0)
     label(axes, "share of the residual [%]", "")
     return figure
 
 
-def force_bars(force: ResidualForce) -> Figure:
+def force_bars(force: InputEstimation) -> Figure:
     """How much of the rest an unknown force would explain at each place."""
-    figure, (axes,) = panels(1, height=0.32 * len(force.suspects) + 0.9)
-    places = np.arange(len(force.suspects))[::-1]
-    axes.barh(places, [100.0 * one.share for one in force.suspects], color=FIRST, height=0.6)
-    axes.set_yticks(places, [one.place.name for one in force.suspects])
+    figure, (axes,) = panels(1, height=0.32 * len(force.estimates) + 0.9)
+    places = np.arange(len(force.estimates))[::-1]
+    axes.barh(places, [100.0 * one.share for one in force.estimates], color=FIRST, height=0.6)
+    axes.set_yticks(places, [one.location.name for one in force.estimates])
     axes.set_xlim(0.0, 100.0)
     label(axes, "share of what is left beyond noise [%]", "")
     return figure
 
 
-def force_courses(campaign: Campaign, force: ResidualForce) -> Figure:
+def force_histories(campaign: Campaign, force: InputEstimation) -> Figure:
     """The best force over time in each run, beside the car's position."""
-    best = force.suspects[0]
-    runs = [run for run in campaign.runs if run.file in best.courses]
+    best = force.estimates[0]
+    runs = [run for run in campaign.runs if run.file in best.histories]
     figure, axes = panels(1, len(runs), 2.0)
     for k, (axis, run) in enumerate(zip(axes, runs, strict=True)):
-        course = best.courses[run.file]
+        course = best.histories[run.file]
         axis.plot(course.time, course.value, color=FIRST, linewidth=1.2)
-        label(axis, "time [s]" if k == len(runs) - 1 else "", f"{WHAT[best.place.unit]} [{best.place.unit}]", run.file)
+        label(axis, "time [s]" if k == len(runs) - 1 else "", f"{WHAT[best.location.unit]} [{best.location.unit}]", run.file)
         beside = axis.twinx()
         beside.plot(course.time, run.trip.position(course.time), color=GREY, linewidth=1.0, linestyle="--")
         label(beside, "", "car [m]")

@@ -5,13 +5,13 @@ from pathlib import Path
 
 from ...report.page import Block, Picture, Section, Table, save_page
 from ..comparison.compare import Comparison
-from ..diagnosis.experiment_design import Proposal, rivals
-from ..diagnosis.held_out_validation import Judged, ranking
+from ..diagnosis.experiment_design import ProposedRun, best_two_fits
+from ..diagnosis.held_out_validation import ValidatedDiagnosis, ranking
 from ..model_updating.add_effect import Added
 from ..model_updating.backward_elimination import Without
 from ..model_updating.stepwise_selection import Journey
-from ..residuals.input_estimation import ResidualForce
-from ..residuals.residual_correlation import Clue, hints
+from ..residuals.input_estimation import InputEstimation
+from ..residuals.residual_correlation import ResidualCorrelation, correlation_sentences
 from . import figures, formatting, sentences, tables
 
 HOW = (
@@ -68,29 +68,29 @@ def order_picture(comparison: Comparison) -> Picture:
 
 def save_diagnosis(
     path: Path,
-    judged: Judged,
-    clues: Sequence[Clue],
-    standing: float,
-    force: ResidualForce | None,
-    proposals: Sequence[Proposal],
+    validated: ValidatedDiagnosis,
+    correlations: Sequence[ResidualCorrelation],
+    rest_ratio: float,
+    force: InputEstimation | None,
+    proposals: Sequence[ProposedRun],
 ) -> None:
     """The page of `comprope diagnose`."""
-    found = judged.diagnosis
-    lead = sentences.verdict(judged)
+    found = validated.diagnosis
+    lead = sentences.verdict(validated)
     sections = [
-        Section("verdict", "What is missing", [*lead[1:], *ranking_blocks(judged)]),
-        remark_section(judged.remarks),
-        Section("picture", "Before and after", before_after(judged.before, judged.best)),
-        Section("unseen", "What these data cannot see", unseen_blocks(judged)),
+        Section("verdict", "What is missing", [*lead[1:], *ranking_blocks(validated)]),
+        remark_section(validated.remarks),
+        Section("picture", "Before and after", before_after(validated.before, validated.best)),
+        Section("unseen", "What these data cannot see", unseen_blocks(validated)),
         Section("plant", "What happened to the plant's parameters", [PLANT, tables.plant_table(found)]),
-        Section("orders", "What turns with the sheave", [order_picture(judged.best)]),
+        Section("orders", "What turns with the sheave", [order_picture(validated.best)]),
     ]
-    if clues:
-        sections.insert(3, Section("clues", "What the model's error is locked to", clue_blocks(clues, standing)))
+    if correlations:
+        sections.insert(3, Section("clues", "What the model's error is locked to", correlation_blocks(correlations, rest_ratio)))
     if force:
-        sections.insert(4, Section("force", "Which force would explain it", force_blocks(judged, force)))
+        sections.insert(4, Section("force", "Which force would explain it", force_blocks(validated, force)))
     if proposals:
-        sections.append(Section("next", "The next run to measure", next_blocks(judged, proposals)))
+        sections.append(Section("next", "The next run to measure", next_blocks(validated, proposals)))
     save_page(path, f"{found.campaign.name}: which effect is missing", lead[0], sections)
 
 
@@ -100,22 +100,22 @@ PLANT = (
 )
 
 
-def ranking_blocks(judged: Judged) -> list[Block]:
+def ranking_blocks(validated: ValidatedDiagnosis) -> list[Block]:
     """The ranking as picture and table."""
-    entries = ranking(judged)
+    entries = ranking(validated)
     names = [tables.named(one) for one in entries]
-    plant = (judged.refitted.fit_nrmse, judged.refitted.validate_nrmse)
+    plant = (validated.refitted.fit_nrmse, validated.refitted.validate_nrmse)
     caption = "Errors of effects that were not refined on the full model are estimated from their linear look."
-    return [Picture("ranking", figures.ranking(entries, names, plant), caption), tables.ranking_table(judged)]
+    return [Picture("ranking", figures.ranking(entries, names, plant), caption), tables.ranking_table(validated)]
 
 
-def unseen_blocks(judged: Judged) -> list[Block]:
+def unseen_blocks(validated: ValidatedDiagnosis) -> list[Block]:
     """Least detectable sizes and pairs that cannot be told apart."""
-    pairs = [f"{a} and {b}" for a, b in judged.diagnosis.alike]
+    pairs = [f"{a} and {b}" for a, b in validated.diagnosis.indistinguishable]
     told = (
         f"Not to be told apart with these data: {'; '.join(pairs)}." if pairs else "No two effects look the same in these data."
     )
-    return [told, tables.least_table(judged)]
+    return [told, tables.least_table(validated)]
 
 
 def before_after(before: Comparison, after: Comparison) -> list[Block]:
@@ -129,36 +129,40 @@ def before_after(before: Comparison, after: Comparison) -> list[Block]:
     return blocks
 
 
-def clue_blocks(clues: Sequence[Clue], standing: float) -> list[Block]:
+def correlation_blocks(correlations: Sequence[ResidualCorrelation], rest_ratio: float) -> list[Block]:
     """Bars and sentences about what the residual follows."""
     method = (
         "Profiles come from all runs but one and are tried on that one; a sinusoid in time or in the sheave's angle may "
         "begin anywhere in each run."
     )
     return [
-        *(f"{text[0].upper()}{text[1:]}." for text in hints(list(clues), standing)),
-        Picture("clues", figures.clue_bars(clues), method),
+        *(f"{text[0].upper()}{text[1:]}." for text in correlation_sentences(list(correlations), rest_ratio)),
+        Picture("clues", figures.correlation_bars(correlations), method),
     ]
 
 
-def force_blocks(judged: Judged, force: ResidualForce) -> list[Block]:
+def force_blocks(validated: ValidatedDiagnosis, force: InputEstimation) -> list[Block]:
     """Where an unknown force would act, its course in each run, and what that follows."""
     method = (
         "One force at a time, free over the time of each run and smooth; the plant is refitted beside it. Each is judged on "
         "channels and seconds that were left out of its estimate. Dashed in the next picture: the car's position."
     )
-    blocks: list[Block] = [f"{force.told()}.", Picture("force", figures.force_bars(force), method), tables.force_table(force)]
-    blocks.append(Picture("courses", figures.force_courses(judged.diagnosis.campaign, force), "The force at the first place."))
-    if force.clues:
-        blocks.append(Picture("force_clues", figures.clue_bars(force.clues), "How much of that force follows what."))
+    blocks: list[Block] = [f"{force.sentence()}.", Picture("force", figures.force_bars(force), method), tables.force_table(force)]
+    blocks.append(
+        Picture("courses", figures.force_histories(validated.diagnosis.campaign, force), "The force at the first place.")
+    )
+    if force.correlations:
+        blocks.append(
+            Picture("force_clues", figures.correlation_bars(force.correlations), "How much of that force follows what.")
+        )
     return blocks
 
 
-def next_blocks(judged: Judged, proposals: Sequence[Proposal]) -> list[Block]:
+def next_blocks(validated: ValidatedDiagnosis, proposals: Sequence[ProposedRun]) -> list[Block]:
     """Runs that would separate the rivals best."""
-    pair = rivals(judged.diagnosis)
+    pair = best_two_fits(validated.diagnosis)
     names = " and ".join(name for name, _ in pair) if pair else ""
-    rows = [(one.told(), f"{one.distance:.1f}") for one in proposals[:5]]
+    rows = [(one.sentence(), f"{one.distance:.1f}") for one in proposals[:5]]
     told = f"These runs would tell {names} apart best, both taken as fitted to the runs there are."
     return [told, Table(("run", "deviations apart, in the mean"), rows)]
 
@@ -204,6 +208,7 @@ def save_journey(path: Path, found: Journey) -> None:
 
 def without_table(without: Sequence[Without], count: int) -> Table:
     """What would be left without each effect."""
-    rows = [(one.effect, formatting.number(one.fitted.misfit / max(count, 1)), "no" if one.could_go else "yes")
-            for one in without]
+    rows = [
+        (one.effect, formatting.number(one.fitted.chi_square / max(count, 1)), "no" if one.could_go else "yes") for one in without
+    ]
     return Table(("without", "left / noise", "needed"), rows, "Backward: the final model without each of its effects, refitted")

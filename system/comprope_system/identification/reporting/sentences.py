@@ -4,7 +4,7 @@ import numpy as np
 
 from ..comparison.compare import ENOUGH, Comparison
 from ..diagnosis.diagnose import Diagnosis
-from ..diagnosis.held_out_validation import Judged, far_off, full_name, misfit, ranking
+from ..diagnosis.held_out_validation import ValidatedDiagnosis, full_name, implausible_parameters, ranking, reduced_chi_square
 from ..model_updating.add_effect import Added
 from ..model_updating.stepwise_selection import Journey
 from .formatting import chance, number, percent
@@ -21,14 +21,14 @@ def compared(one: Comparison) -> str:
     )
 
 
-def verdict(judged: Judged) -> list[str]:
+def verdict(validated: ValidatedDiagnosis) -> list[str]:
     """What is missing, in sentences a newcomer understands."""
-    found = judged.diagnosis
+    found = validated.diagnosis
     surely = found.probabilities
     ruled_out = [f"Ruled out beforehand: {', '.join(sorted(out))}."] if (out := found.problem.ruled_out) else []
     bent = _bent(found)
     if found.verdict:
-        return [_missing(judged), *_twins(found), *bent, *ruled_out]
+        return [_missing(validated), *_twins(found), *bent, *ruled_out]
     if found.kind == "adequate":
         told = "Nothing is missing: with its plant parameters refitted the model is as near as noise allows"
         return [f"{told} (probability {chance(surely['adequate'])}).", *bent, *ruled_out]
@@ -40,30 +40,33 @@ def verdict(judged: Judged) -> list[str]:
     ]
 
 
-def _missing(judged: Judged) -> str:
-    found, top = judged.diagnosis, ranking(judged)[0]
+def _missing(validated: ValidatedDiagnosis) -> str:
+    found, top = validated.diagnosis, ranking(validated)[0]
     name = full_name(found.ranking[0].hypothesis)
     others = top.get("together_with", {})
     more = f", and {', '.join(others)}," if others else ""
     what = "An instrument is at fault" if found.kind == "instrument" else "Missing"
-    left = misfit(judged, found.ranking[0])
+    left = reduced_chi_square(validated, found.ranking[0])
     rest = "" if left < 1.5 else f" It leaves {number(left)} times what noise would: perhaps something more is missing."
     return (
         f"{what}: {name}{more} with probability {chance(top['probability'])}. With it the error falls from "
         f"{percent(top['error_before'])} to {percent(top['error_after'])} on the fit runs and from "
         f"{percent(top['validate_error_before'])} to {percent(top['validate_error_after'])} on runs held out; noise alone would "
-        f"leave {percent(judged.before.floor('fit'))} and {percent(judged.before.floor('validate'))}.{rest}"
+        f"leave {percent(validated.before.floor('fit'))} and {percent(validated.before.floor('validate'))}.{rest}"
     )
 
 
 def _bent(found: Diagnosis) -> list[str]:
     """What a fit asks of the plant that no data sheet allows."""
-    told = [f"{key} by {change:+.0%}, {abs(off):.0f} times what it usually errs by" for key, change, off in far_off(found)]
+    told = [
+        f"{key} by {change:+.0%}, {abs(off):.0f} times what it usually errs by"
+        for key, change, off in implausible_parameters(found)
+    ]
     return [f"The fit needs a plant far off what is stated: {'; '.join(told)}."] if told else []
 
 
 def _twins(found: Diagnosis) -> list[str]:
-    twins = sorted({a if b == found.verdict else b for a, b in found.alike if found.verdict in (a, b)})
+    twins = sorted({a if b == found.verdict else b for a, b in found.indistinguishable if found.verdict in (a, b)})
     likely = [name for name in twins if found.probabilities.get(name, 0.0) > 0.02]
     return [f"These data hardly tell it from {', '.join(likely)}."] if likely else []
 

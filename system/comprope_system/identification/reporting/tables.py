@@ -7,10 +7,10 @@ from ...report.page import Table
 from ..comparison.compare import Comparison
 from ..data.trip_phases import PHASES
 from ..diagnosis.diagnose import Diagnosis
-from ..diagnosis.held_out_validation import Judged, biases, ranking
-from ..estimation.parameter_estimates import Value, unit_of
+from ..diagnosis.held_out_validation import ValidatedDiagnosis, parameter_shifts, ranking
+from ..estimation.parameter_estimates import Estimate, unit_of
 from ..model_updating.stepwise_selection import Journey
-from ..residuals.input_estimation import ResidualForce
+from ..residuals.input_estimation import InputEstimation
 from .formatting import NOTHING, chance, number, percent
 
 SHOWN = 6  # effects in short tables
@@ -41,7 +41,7 @@ def shape_table(one: Comparison) -> Table:
     return Table(head, rows, "Sprague and Geers; phase in half periods")
 
 
-def ranking_table(judged: Judged, most: int = 100) -> Table:
+def ranking_table(validated: ValidatedDiagnosis, most: int = 100) -> Table:
     """The ranking: probability, errors and parameters."""
     head = ("effect", "probability", "fit runs", "held out", "left / noise", "parameters")
     rows = [
@@ -49,10 +49,12 @@ def ranking_table(judged: Judged, most: int = 100) -> Table:
             named(one), chance(one["probability"]), percent(one["error_after"]), percent(one["validate_error_after"]),
             number(one["misfit_per_datum"]), parameters(one) + (" (estimated)" if one["estimated"] else ""),
         )
-        for one in ranking(judged)[:most]
+        for one in ranking(validated)[:most]
     ]  # fmt: skip
     return Table(
-        head, rows, f"Errors with the effect; now {percent(judged.before.fit_nrmse)} and {percent(judged.before.validate_nrmse)}"
+        head,
+        rows,
+        f"Errors with the effect; now {percent(validated.before.fit_nrmse)} and {percent(validated.before.validate_nrmse)}",
     )
 
 
@@ -72,33 +74,35 @@ def sized(effect: str, name: str, value: float) -> str:
     return f"{name} {value if abs(value) > NOTHING else 0.0:.3g}{unit_of(effect, name)}"
 
 
-def least_table(judged: Judged) -> Table:
+def least_table(validated: ValidatedDiagnosis) -> Table:
     """What the data cannot see: sizes below which an effect would go unnoticed."""
     rows = []
-    for one in judged.diagnosis.ranking:
+    for one in validated.diagnosis.ranking:
         if not one.hypothesis.parts:
             effect = one.hypothesis.effect
-            sizes = {key.split(".", 2)[2]: value for key, value in one.least.items() if "phase" not in key}
+            sizes = {key.split(".", 2)[2]: value for key, value in one.detection_limits.items() if "phase" not in key}
             told = ", ".join(sized(effect, name, value) for name, value in sizes.items())
-            rows.append((effect, told, percent(one.visible)))
+            rows.append((effect, told, percent(one.distinct_share)))
     return Table(("effect", "seen from about", "not mistaken for the plant"), sorted(rows))
 
 
-def force_table(force: ResidualForce, most: int = 100) -> Table:
+def force_table(force: InputEstimation, most: int = 100) -> Table:
     """Places of an unknown force: what it explains of the rest there, and its size."""
-    rows = [(one.place.name, percent(one.share), one.sized()) for one in force.suspects[:most]]
+    rows = [(one.location.name, percent(one.share), one.sized()) for one in force.estimates[:most]]
     return Table(("if it is", "explains of the rest", "rms"), rows, "Judged on data that were left out of each estimate")
 
 
 def plant_table(found: Diagnosis) -> Table:
     """Plant parameters as the file has them and as fitted, and by how many of their usual deviations they moved."""
-    rows = [(key, number(one.before), one.told(), f"{moved:+.1f}") for key, one, moved in biases(found)]
+    rows = [(key, number(one.before), one.formatted(), f"{moved:+.1f}") for key, one, moved in parameter_shifts(found)]
     return Table(("parameter", "file", "fitted", "moved, in usual deviations"), rows)
 
 
-def value_table(values: Mapping[str, Value]) -> Table:
+def value_table(values: Mapping[str, Estimate]) -> Table:
     """Fitted values with 95 % intervals."""
-    rows = [(key, one.told(), f"{one.low:.4g}", f"{one.high:.4g}") for key, one in values.items() if one.deviation > 0.0]
+    rows = [
+        (key, one.formatted(), f"{one.low:.4g}", f"{one.high:.4g}") for key, one in values.items() if one.standard_error > 0.0
+    ]
     return Table(("parameter", "fitted", "95 %: from", "to"), rows)
 
 

@@ -16,9 +16,9 @@ from scipy.interpolate import BSpline
 from comprope.rope.effects import RopeModel, model_type, user_effects
 
 from ..data.campaign import Channel, Run
-from ..estimation.weighted_least_squares import Problem
-from ..prediction.parameter_point import Point, moved
-from ..prediction.replay import STEP, Floats, coarseness
+from ..estimation.weighted_least_squares import LeastSquaresProblem
+from ..prediction.parameter_point import ParameterPoint, run_at_point
+from ..prediction.replay import STEP, Floats, coarsening_factor
 from ..prediction.replay_sensitivities import replay_with_sensitivities
 
 PROBE = Path(__file__).with_name("force_probe_effect.py")
@@ -33,7 +33,7 @@ Shown = list[dict[str, Floats]]  # for each pulse every channel (n,)
 
 
 @dataclass(frozen=True)
-class Place:
+class ForceLocation:
     """One place: its name for a person, its quantity in the instrument, its unit, and the band of heights of a push."""
 
     name: str
@@ -43,21 +43,24 @@ class Place:
     reach: float = 1.0
 
 
-def places(model: RopeModel) -> list[Place]:
+def force_locations(model: RopeModel) -> list[ForceLocation]:
     """Every place at which an unknown force or motion is looked for."""
     sides = {"car": "under the car", "counterweight": "under the counterweight"}
     reach = model.shaft.height / BANDS
     bands = [
-        Place(f"a sideways push on the {side}'s side about {height:.3g} m up", f"{side}_side", "N/m", height, reach)
+        ForceLocation(f"a sideways push on the {side}'s side about {height:.3g} m up", f"{side}_side", "N/m", height, reach)
         for side in sides
         for height in reach * (np.arange(BANDS) + 0.5)
     ]
     ends = [
-        Place(f"{'a sideways' if way == 'out' else 'an up-and-down'} motion of the end {where}", f"{side}_end_{way}", "m")
+        ForceLocation(f"{'a sideways' if way == 'out' else 'an up-and-down'} motion of the end {where}", f"{side}_end_{way}", "m")
         for way in ("out", "up")
         for side, where in sides.items()
     ]
-    sheave = [Place("a force on the sheave", "sheave_force", "N"), Place("a torque on the sheave", "sheave_torque", "N.m")]
+    sheave = [
+        ForceLocation("a force on the sheave", "sheave_force", "N"),
+        ForceLocation("a torque on the sheave", "sheave_torque", "N.m"),
+    ]
     return [*sheave, *bands, *ends]
 
 
@@ -98,7 +101,7 @@ def probed(model: RopeModel) -> RopeModel:
     return model_type(table["own_effects"]).model_validate(table)
 
 
-def responses(problem: Problem, point: Point, looked: Sequence[Place]) -> list[list[Floats]]:
+def responses(problem: LeastSquaresProblem, point: ParameterPoint, looked: Sequence[ForceLocation]) -> list[list[Floats]]:
     """What the data show of each coefficient, whitened: for each place and run a matrix (data of the run, coefficients).
 
     Elements and steps are those of a first look. Raises `SimulationError` where a run cannot be simulated with them.
@@ -109,31 +112,37 @@ def responses(problem: Problem, point: Point, looked: Sequence[Place]) -> list[l
     return [[matrices[k] for matrices in by_run] for k in range(len(looked))]
 
 
-def _begun(problem: Problem, point: Point, run: Run, looked: Sequence[Place]) -> list[Future[Shown]]:
+def _begun(problem: LeastSquaresProblem, point: ParameterPoint, run: Run, looked: Sequence[ForceLocation]) -> list[Future[Shown]]:
     """Start the tangent-linear runs of one record, a group of pulses each."""
-    campaign, coarse, splines = problem.campaign, coarseness(problem.campaign.model), splines_of(run)
-    pulses = [(place, float(time), splines.spacing) for place in looked for time in splines.centres]
+    campaign, coarse, splines = problem.campaign, coarsening_factor(problem.campaign.model), splines_of(run)
+    pulses = [(location, float(time), splines.spacing) for location in looked for time in splines.centres]
     groups = [pulses[first : first + GROUP] for first in range(0, len(pulses), GROUP)]
-    model, there = probed(campaign.model), moved(campaign.model, run, problem.held_back(point), coarse)
+    model, there = probed(campaign.model), run_at_point(campaign.model, run, problem.with_held_fixed(point), coarse)
     return [problem.executor.submit(answers, model, there, campaign.channels, some, coarse) for some in groups]
 
 
-def _gathered(problem: Problem, run: Run, looked: Sequence[Place], jobs: Sequence[Future[Shown]]) -> list[Floats]:
+def _gathered(
+    problem: LeastSquaresProblem, run: Run, looked: Sequence[ForceLocation], jobs: Sequence[Future[Shown]]
+) -> list[Floats]:
     """The whitened matrix of each place for one record."""
     shown = [one for job in jobs for one in job.result()]
-    parts = [one for one in problem.parts if one.run == run.file]
-    whole = np.vstack([one.whiten(np.column_stack([one.means(by[one.column]) for by in shown])) for one in parts])
+    whitened_channels = [one for one in problem.whitened_channels if one.run == run.file]
+    whole = np.vstack([one.whiten(np.column_stack([one.means(by[one.column]) for by in shown])) for one in whitened_channels])
     return [splines_of(run).tied(columns) for columns in np.split(whole, len(looked), axis=1)]
 
 
 def answers(
-    model: RopeModel, run: Run, channels: Mapping[str, Channel], pulses: Sequence[tuple[Place, float, float]], coarse: float
+    model: RopeModel,
+    run: Run,
+    channels: Mapping[str, Channel],
+    pulses: Sequence[tuple[ForceLocation, float, float]],
+    coarse: float,
 ) -> Shown:
     """Each channel of a run by the size of each pulse (place, time, width)."""
-    directions = {str(k): {KEY + place.quantity: 1.0} for k, (place, _, _) in enumerate(pulses)}
+    directions = {str(k): {KEY + location.quantity: 1.0} for k, (location, _, _) in enumerate(pulses)}
     at = {
-        str(k): {KEY + "height": place.height, KEY + "reach": place.reach, KEY + "time": time, KEY + "width": width}
-        for k, (place, time, width) in enumerate(pulses)
+        str(k): {KEY + "height": location.height, KEY + "reach": location.reach, KEY + "time": time, KEY + "width": width}
+        for k, (location, time, width) in enumerate(pulses)
     }
     by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at)[1]
     return [by[name] for name in directions]

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag, cho_factor, cho_solve
 from scipy.optimize import minimize_scalar
 
-from ..data.whitening import Part
+from ..data.whitening import WhitenedChannel
 
 Floats = NDArray[np.float64]
 SMOOTH = (0.5, 1.0, 2.0, 4.0)  # L, in splines
@@ -29,7 +29,7 @@ BLOCK = 1.0  # s
 
 
 @dataclass(frozen=True)
-class Normal:
+class NormalEquations:
     """Sums of squares and products of some rows: X'X (k, k), X'r (k,) and r'r."""
 
     matrix: Floats
@@ -37,17 +37,17 @@ class Normal:
     square: float
 
     @classmethod
-    def of(cls, x: Floats, r: Floats) -> "Normal":
+    def of(cls, x: Floats, r: Floats) -> "NormalEquations":
         """Of rows x (n, k) and r (n,)."""
         return cls(x.T @ x, x.T @ r, float(r @ r))
 
-    def scaled(self, by: Floats) -> "Normal":
+    def scaled(self, by: Floats) -> "NormalEquations":
         """With columns X @ by."""
-        return Normal(by.T @ self.matrix @ by, by.T @ self.vector, self.square)
+        return NormalEquations(by.T @ self.matrix @ by, by.T @ self.vector, self.square)
 
-    def without(self, other: "Normal") -> "Normal":
+    def without(self, other: "NormalEquations") -> "NormalEquations":
         """Without the rows of another."""
-        return Normal(self.matrix - other.matrix, self.vector - other.vector, self.square - other.square)
+        return NormalEquations(self.matrix - other.matrix, self.vector - other.vector, self.square - other.square)
 
     def most_likely(self) -> tuple[Floats, float]:
         """Coefficients under a prior of unit variance, and twice the negative log evidence but for constants, less N log."""
@@ -60,14 +60,16 @@ class Normal:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Deconvolution:
     """Coefficients of each run's force, and the misfit that they leave where they were not fitted."""
 
-    courses: list[Floats]
+    histories: list[Floats]
     missed: float
 
 
-def estimate(matrices: Sequence[Floats], plant: Floats, r: Floats, rows: NDArray[np.bool_], fold: NDArray[np.int64]) -> Estimate:
+def deconvolve(
+    matrices: Sequence[Floats], plant: Floats, r: Floats, rows: NDArray[np.bool_], fold: NDArray[np.int64]
+) -> Deconvolution:
     """The most likely force at one place.
 
     `matrices` are the responses of each run (data of the run, coefficients), `rows` (runs, N) which data are a run's; `plant`
@@ -80,23 +82,23 @@ def estimate(matrices: Sequence[Floats], plant: Floats, r: Floats, rows: NDArray
         x[own, end - matrix.shape[1] : end] = matrix
     unit = max(float(np.sqrt((x**2).sum() / max(len(x.T), 1))), 1e-300)
     both = np.hstack([x / unit, plant])
-    whole = Normal.of(both, r)
+    whole = NormalEquations.of(both, r)
     shapes = {smooth: block_diag(*(prior_root(count, smooth) for count in counts)) for smooth in SMOOTH}
     found = {smooth: _size(whole, shape, plant.shape[1], len(r)) for smooth, shape in shapes.items()}
     smooth = min(found, key=lambda one: found[one][1])
     root = _root(shapes[smooth], found[smooth][0], plant.shape[1])
     z, _ = whole.scaled(root).most_likely()
-    missed = sum(_held_back(whole, Normal.of(both[fold == k], r[fold == k]), root) for k in np.unique(fold))
-    return Estimate(np.split((root @ z)[: sum(counts)] / unit, np.cumsum(counts)[:-1]), missed)
+    missed = sum(_held_back(whole, NormalEquations.of(both[fold == k], r[fold == k]), root) for k in np.unique(fold))
+    return Deconvolution(np.split((root @ z)[: sum(counts)] / unit, np.cumsum(counts)[:-1]), missed)
 
 
-def _held_back(whole: Normal, held: Normal, root: Floats) -> float:
+def _held_back(whole: NormalEquations, held: NormalEquations, root: Floats) -> float:
     """Misfit of rows by what all others say."""
     own = held.scaled(root)
     return own.missed(whole.without(held).scaled(root).most_likely()[0])
 
 
-def _size(whole: Normal, shape: Floats, plant: int, count: int) -> tuple[float, float]:
+def _size(whole: NormalEquations, shape: Floats, plant: int, count: int) -> tuple[float, float]:
     """The likeliest log10 k for one smoothness, and twice the negative log evidence there."""
 
     def unlikely(size: float) -> float:
@@ -120,8 +122,11 @@ def prior_root(count: int, smooth: float) -> Floats:
     return np.asarray(np.linalg.cholesky(covariance / covariance[count // 2, count // 2]))
 
 
-def folds(parts: Sequence[Part], times: Sequence[Floats]) -> NDArray[np.int64]:
+def cross_validation_folds(whitened_channels: Sequence[WhitenedChannel], times: Sequence[Floats]) -> NDArray[np.int64]:
     """The fold of each datum (N,): neighbours in time and other channels lie in others. `times` are those of the parts' bins."""
-    columns = list(dict.fromkeys(one.column for one in parts))
-    found = [(time // BLOCK).astype(np.int64) + 2 * columns.index(one.column) for one, time in zip(parts, times, strict=True)]
+    columns = list(dict.fromkeys(one.column for one in whitened_channels))
+    found = [
+        (time // BLOCK).astype(np.int64) + 2 * columns.index(one.column)
+        for one, time in zip(whitened_channels, times, strict=True)
+    ]
     return np.concatenate(found) % FOLDS

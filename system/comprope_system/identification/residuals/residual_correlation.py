@@ -16,7 +16,7 @@ from ..comparison.error_metrics import LEAST, rms
 from ..data.campaign import Campaign, Run
 from ..data.trip_phases import phases
 from ..prediction.parameter_point import Predictions
-from ..prediction.replay import referred
+from ..prediction.replay import relative_to_rest
 
 Floats = NDArray[np.float64]
 BINS = 30
@@ -27,7 +27,7 @@ CLEAR = 0.3  # share above which a clue is worth telling
 
 
 @dataclass(frozen=True)
-class Piece:
+class ResidualSeries:
     """The residual of one channel in one run: `x` (n,), scaled by its rms over all runs, and coordinates (n,) beside it.
 
     A `floating` one is known but for its level in the run.
@@ -37,18 +37,18 @@ class Piece:
     column: str
     x: Floats
     at: dict[str, Floats]
-    standing: NDArray[np.bool_]
+    at_rest: NDArray[np.bool_]
     moving: NDArray[np.bool_]
     floating: bool = False
 
-    def seen(self, coordinate: str) -> tuple[Floats, Floats]:
+    def samples(self, coordinate: str) -> tuple[Floats, Floats]:
         """Coordinate and residual; where only motion tells places apart, while the car moves."""
         used = np.ones(len(self.x), bool) if coordinate in ("time", "since_start") else self.moving
         return self.at[coordinate][used], self.x[used]
 
 
 @dataclass(frozen=True)
-class Clue:
+class ResidualCorrelation:
     """How much of the residual is locked to a coordinate: 0 none, 1 all; at which frequency or order, if any."""
 
     coordinate: str
@@ -56,25 +56,25 @@ class Clue:
     unit: str
     peak: float | None = None
 
-    def told(self) -> str:
+    def sentence(self) -> str:
         """One sentence."""
         where = f" at {self.peak:.3g} {self.unit}" if self.peak is not None else ""
         return f"{100.0 * self.share:.0f} % of the residual is locked to {self.coordinate}{where}"
 
 
-def clues(campaign: Campaign, predictions: Predictions) -> list[Clue]:
+def residual_correlations(campaign: Campaign, predictions: Predictions) -> list[ResidualCorrelation]:
     """What the residual is locked to, the best explanation first."""
-    return locked(residual_pieces(campaign, predictions))
+    return correlations_of(residual_series(campaign, predictions))
 
 
-def locked(pieces: list[Piece]) -> list[Clue]:
+def correlations_of(pieces: list[ResidualSeries]) -> list[ResidualCorrelation]:
     """What some series are locked to, of the coordinates that they have, the best explanation first."""
     if not pieces:
         return []
-    found = [Clue(words, profile_share(pieces, name), "") for name, words in WORDS.items() if name in pieces[0].at]
+    found = [ResidualCorrelation(words, profile_share(pieces, name), "") for name, words in WORDS.items() if name in pieces[0].at]
     found.append(_sinusoid(pieces, "time", FREQUENCIES, 2.0 * np.pi, "a frequency", "Hz"))
     found.append(_sinusoid(pieces, "angle", ORDERS, 1.0, "the sheave's angle", "periods a turn"))
-    return sorted(found, key=lambda clue: -clue.share)
+    return sorted(found, key=lambda one: -one.share)
 
 
 WORDS = {
@@ -88,37 +88,37 @@ WORDS = {
 }
 
 
-def hints(found: list[Clue], standing: float) -> list[str]:
+def correlation_sentences(found: list[ResidualCorrelation], rest_ratio: float) -> list[str]:
     """Sentences for a person; `standing` is the residual's rms at rest over its rms in all."""
-    clear = [clue.told() for clue in found if clue.share > CLEAR]
-    still = f"at rest before the trip it is {standing:.2g} times as large as on the whole"
+    clear = [one.sentence() for one in found if one.share > CLEAR]
+    still = f"at rest before the trip it is {rest_ratio:.2g} times as large as on the whole"
     none = ["it follows none of time, position, rope, speed, frequency or the sheave's angle from run to run"]
-    return [*(clear or none), still] if np.isfinite(standing) else clear or none
+    return [*(clear or none), still] if np.isfinite(rest_ratio) else clear or none
 
 
-def standing_of(campaign: Campaign, predictions: Predictions) -> float:
+def rest_ratio_of(campaign: Campaign, predictions: Predictions) -> float:
     """Root mean square of the residual at rest before the trip, over that of all of it; NaN where there is none."""
-    pieces = residual_pieces(campaign, predictions)
+    pieces = residual_series(campaign, predictions)
     if not pieces:
         return float("nan")
-    still, whole = np.concatenate([one.x[one.standing] for one in pieces]), np.concatenate([one.x for one in pieces])
+    still, whole = np.concatenate([one.x[one.at_rest] for one in pieces]), np.concatenate([one.x for one in pieces])
     return rms(still) / rms(whole)
 
 
-def residual_pieces(campaign: Campaign, predictions: Predictions) -> list[Piece]:
+def residual_series(campaign: Campaign, predictions: Predictions) -> list[ResidualSeries]:
     """The residual of every channel and run beside its coordinates; channels that show only noise are left out."""
-    raw = [one for run in campaign.runs for one in _pieces_of(campaign, run, predictions)]
+    raw = [one for run in campaign.runs for one in _series_of_run(campaign, run, predictions)]
     pieces = []
     for column, channel in campaign.channels.items():
         own = [one for one in raw if one.column == column]
         size = rms(np.concatenate([one.x for one in own])) if own else 0.0
         if size > 1.5 * channel.scale * (channel.noise or 0.0):
-            pieces += [Piece(one.run, column, one.x / size, one.at, one.standing, one.moving) for one in own]
+            pieces += [ResidualSeries(one.run, column, one.x / size, one.at, one.at_rest, one.moving) for one in own]
     return pieces
 
 
-def _pieces_of(campaign: Campaign, run: Run, predictions: Predictions) -> Iterator[Piece]:
-    measured = referred(run.values, run, campaign.channels)
+def _series_of_run(campaign: Campaign, run: Run, predictions: Predictions) -> Iterator[ResidualSeries]:
+    measured = relative_to_rest(run.values, run, campaign.channels)
     for column in campaign.channels:
         residual = measured[column] - predictions[run.file, column]
         known = np.flatnonzero(np.isfinite(residual))
@@ -127,7 +127,9 @@ def _pieces_of(campaign: Campaign, run: Run, predictions: Predictions) -> Iterat
         known = known[:: max(1, len(known) // SAMPLES)]
         t = run.time[known]
         at = motion_of(campaign, run, t) | {"material": _material(campaign, run, column, t)}
-        yield Piece(run.file, column, residual[known], at, phases(run.trip, t)["rest"], np.abs(run.trip.velocity(t)) > 0.0)
+        yield ResidualSeries(
+            run.file, column, residual[known], at, phases(run.trip, t)["rest"], np.abs(run.trip.velocity(t)) > 0.0
+        )
 
 
 def motion_of(campaign: Campaign, run: Run, t: Floats) -> dict[str, Floats]:
@@ -157,7 +159,7 @@ def _material(campaign: Campaign, run: Run, column: str, t: Floats) -> Floats:
 # -- profiles ----------------------------------------------------------------------------------------
 
 
-def profile_share(pieces: list[Piece], coordinate: str) -> float:
+def profile_share(pieces: list[ResidualSeries], coordinate: str) -> float:
     """Share of the mean square that profiles over a coordinate explain in runs that did not make them.
 
     Each channel has its own profile, but for the rope's material, which passes one sensor after the other.
@@ -173,38 +175,40 @@ def profile_share(pieces: list[Piece], coordinate: str) -> float:
             known = [one for one in group if one.run != run]
             profile = _profile(known, coordinate, edges)
             for one in (one for one in group if one.run == run):
-                place, x = one.seen(coordinate)
+                place, x = one.samples(coordinate)
                 missed = x - profile[np.digitize(place, edges[1:-1])]
                 left += float(np.sum((missed - missed.mean() if one.floating else missed) ** 2))
                 whole += float(np.sum((x - x.mean() if one.floating else x) ** 2))
     return max(0.0, 1.0 - left / whole) if whole else 0.0
 
 
-def _edges(group: list[Piece], coordinate: str) -> Floats:
-    values = np.concatenate([[0.0], *(one.seen(coordinate)[0] for one in group)])
+def _edges(group: list[ResidualSeries], coordinate: str) -> Floats:
+    values = np.concatenate([[0.0], *(one.samples(coordinate)[0] for one in group)])
     return np.linspace(values.min(), values.max() + 1e-9, BINS + 1)
 
 
-def _profile(known: list[Piece], coordinate: str, edges: Floats) -> Floats:
+def _profile(known: list[ResidualSeries], coordinate: str, edges: Floats) -> Floats:
     """Mean residual in each bin over some runs, zero where none lies."""
     if not known:
         return np.zeros(BINS)
-    places, residuals = (np.concatenate(parts) for parts in zip(*(one.seen(coordinate) for one in known), strict=True))
+    places, residuals = (np.concatenate(parts) for parts in zip(*(one.samples(coordinate) for one in known), strict=True))
     index = np.digitize(places, edges[1:-1])
     return np.bincount(index, residuals, BINS) / np.maximum(np.bincount(index, minlength=BINS), 1)
 
 
-def _sinusoid(pieces: list[Piece], coordinate: str, grid: Floats, radians: float, words: str, unit: str) -> Clue:
+def _sinusoid(
+    pieces: list[ResidualSeries], coordinate: str, grid: Floats, radians: float, words: str, unit: str
+) -> ResidualCorrelation:
     """The one frequency that explains most in all channels and runs, with a phase and an amplitude for each."""
     explained, whole = np.zeros(len(grid)), 0.0
-    for place, x in (one.seen(coordinate) for one in pieces):
+    for place, x in (one.samples(coordinate) for one in pieces):
         if len(x) < LEAST:
             continue
         span = float(np.ptp(place)) * radians / (2.0 * np.pi)
         whole += float((x**2).sum())
         explained += np.where(grid * span > 1.5, _explained(place * radians, x, grid), 0.0)
     best = int(np.argmax(explained))
-    return Clue(words, float(explained[best]) / whole if whole else 0.0, unit, float(grid[best]))
+    return ResidualCorrelation(words, float(explained[best]) / whole if whole else 0.0, unit, float(grid[best]))
 
 
 def _explained(phase: Floats, x: Floats, grid: Floats) -> Floats:
