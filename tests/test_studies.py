@@ -15,7 +15,7 @@ from comprope_system.report.plot_style import panels
 from comprope_system.studies import fig4, fig5, fig6, fig7, fig8, workflow
 from comprope_system.studies.design import least_mass
 from comprope_system.studies.peaks import oscillator_peak, peak
-from comprope_system.studies.study import Ask
+from comprope_system.studies.study import StudyOptions
 from comprope_system.studies.swing import MEASURES, swing, swing_case
 from comprope_system.verification import invariants, offset, reference
 from comprope_system.verification.free_rope import Hanging, swing_sideways
@@ -37,7 +37,7 @@ def test_fig4_displacement_is_small_from_75_percent_on_and_grows_below() -> None
 
 def test_fig5_frequency_follows_the_shortening_side() -> None:
     values = fig5.up_trip(swing_case(TOWER, 50.0))
-    facts = fig5.STUDY.tell(Ask(), [values]).facts
+    facts = fig5.STUDY.evaluate(StudyOptions(), [values]).facts
     assert [one.verdict for one in facts] == ["yes", "yes"]
 
 

@@ -30,7 +30,7 @@ def study(
     `design` answers which least sheave weight keeps the displacement under a limit. An interrupted run goes on
     where it stopped when it is started again with the same folder.
     """
-    from ..studies.study import Ask
+    from ..studies.study import StudyOptions
     from ..studies.workflow import Request, run
 
-    run(Request(names or (), out, jobs, executor, Ask(building, distance, 1e-3 * limit)))
+    run(Request(names or (), out, jobs, executor, StudyOptions(building, distance, 1e-3 * limit)))

@@ -1,4 +1,4 @@
-"""The results of Nakazawa et al., "Lateral vibration analysis for elevator compensation rope", one study a module.
+"""Reproduction of the results of Nakazawa et al., "Lateral vibration analysis for elevator compensation rope".
 
-Each module has a `STUDY`. The paper's figures are known by what its text says of them.
+One study per module, its `STUDY`. Stated values are taken from the text of the paper.
 """

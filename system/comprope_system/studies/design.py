@@ -1,4 +1,4 @@
-"""Section 6: the least sheave weight that keeps the displacement under a limit."""
+"""Section 6: the smallest sheave mass that keeps the displacement below a limit."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from ..presets.paper_installations import model_in, with_sheave
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, GREY, label, panels, plain_log
-from .study import AGREES, Ask, Study
+from .study import AGREES, Study, StudyOptions
 from .swing import MEASURES, swing, swing_case
 
 MEASURE = "whole_rest"
@@ -33,10 +33,9 @@ class Answer:
 def least_mass(model: RopeModel, trip: Mapping[str, float], limit: float, measure: str = MEASURE) -> Answer:
     """Bisect the sheave mass of a building until the displacement on a trip up meets a limit [m].
 
-    `trip` has distance [m], speed, acceleration and jerk. The full model runs it for every mass tried; the inertia goes
-    with the mass. Displacement is `measure`, one
-    of `swing.MEASURES`, taken to fall as the mass grows. Raises `InputError` where even the heaviest sheave tried
-    does not keep the limit.
+    `trip` has distance [m], speed, acceleration and jerk. It is simulated with the full model for every mass; the
+    inertia is proportional to the mass. Displacement is `measure`, one of `swing.MEASURES`, assumed to decrease with increasing
+    mass. Raises `InputError` if even the largest mass does not meet the limit.
     """
     runs: dict[float, float] = {}
 
@@ -65,32 +64,32 @@ def answer(case: Case) -> dict[str, Any]:
     return {"mass": found.mass, "at_bound": found.at_bound, "runs": [list(run) for run in found.runs]}
 
 
-def _tell(ask: Ask, values: list[Any]) -> Finding:
+def _evaluate(options: StudyOptions, values: list[Any]) -> Finding:
     (v,) = values
     least = ("at most " if v["at_bound"] else "") + f"{v['mass']:.1f} kg"
-    trip = f"{ask.building}, {ask.distance:g} m up from the bottom landing"
+    trip = f"{options.building}, {options.distance:g} m up from the bottom landing"
     facts = [
         Fact(
             "use of the model",
             "estimate sufficient weight conditions of the sheave",
-            f"{least} for each rope keep the displacement under {1e3 * ask.limit:g} mm ({trip})",
+            f"{least} per rope keep the displacement below {1e3 * options.limit:g} mm ({trip})",
             AGREES,
         )
     ]
     text = (
-        f"Displacement here: {MEASURES[MEASURE]}. The mass is found by bisection to {100 * TOLERANCE:g} %, every try a run "
-        "of the full model. Ask for other buildings, trips and limits by --building, --distance and --limit."
+        f"Displacement: {MEASURES[MEASURE]}. The mass is found by bisection to {100 * TOLERANCE:g} % with simulations of the "
+        "full model. Other buildings, trips and limits: options --building, --distance and --limit."
     )
-    rows = [(f"{mass:.1f}", f"{1e3 * value:.2f}", "pass" if value <= ask.limit else "fail") for mass, value in v["runs"]]
-    table = Table(("mass [kg]", "displacement [mm]", f"under {1e3 * ask.limit:g} mm"), rows, "Runs of the bisection")
-    return Finding(facts, [text, Picture("design_least_weight", _draw(ask, v)), table])
+    rows = [(f"{mass:.1f}", f"{1e3 * value:.2f}", "pass" if value <= options.limit else "fail") for mass, value in v["runs"]]
+    table = Table(("mass [kg]", "displacement [mm]", f"under {1e3 * options.limit:g} mm"), rows, "Runs of the bisection")
+    return Finding(facts, [text, Picture("design_least_weight", _draw(options, v)), table])
 
 
-def _draw(ask: Ask, v: dict[str, Any]) -> Any:
+def _draw(options: StudyOptions, v: dict[str, Any]) -> Any:
     figure, (axes,) = panels(height=2.8)
     mass, value = zip(*v["runs"], strict=True)
     axes.loglog(mass, [1e3 * one for one in value], "o-", color=COLOURS[0], markersize=4)
-    axes.axhline(1e3 * ask.limit, color=COLOURS[1], linewidth=1.0)
+    axes.axhline(1e3 * options.limit, color=COLOURS[1], linewidth=1.0)
     axes.axvline(v["mass"], color=GREY, linewidth=0.9)
     plain_log(axes.xaxis, axes.yaxis)
     label(axes, "sheave mass [kg]", "displacement [mm]")
@@ -99,9 +98,9 @@ def _draw(ask: Ask, v: dict[str, Any]) -> Any:
 
 STUDY = Study(
     "design",
-    "Section 6: the least sufficient weight",
+    "Section 6: smallest sufficient weight",
     "The proposed model can be applied to estimate sufficient weight conditions of the compensation sheave.",
-    lambda ask: [{**swing_case(ask.building, ask.distance), "limit": ask.limit}],
+    lambda options: [{**swing_case(options.building, options.distance), "limit": options.limit}],
     answer,
-    _tell,
+    _evaluate,
 )

@@ -12,7 +12,7 @@ from ..presets.paper_installations import TOWER, building, model_in, table, with
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, GREY, label, legend, panels, plain_log
-from .study import AGREES, DIFFERS, Ask, Study
+from .study import AGREES, DIFFERS, Study, StudyOptions
 
 FRACTIONS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.9, 1.0)  # of the nominal weight
 PLACES = (("counterweight", 0.5), ("car", 0.5), ("counterweight", 10.0))  # side, height [m]
@@ -20,7 +20,7 @@ CAR = 25.0  # m, half-way up: both sides hang free over the same length
 SMALL = 0.05  # of the largest relative displacement: "close to zero"
 
 
-def _cases(_: Ask) -> list[Case]:
+def _cases(_: StudyOptions) -> list[Case]:
     nominal = building(TOWER).sheave.mass
     return [{"model": table(TOWER, with_sheave(TOWER, fraction * nominal))} for fraction in FRACTIONS]
 
@@ -45,7 +45,7 @@ def wrap_limit() -> float:
     return model.rope.bending_stiffness / model.sheave.radius**2 / (model.shaft.gravity * model.sheave.mass)
 
 
-def _tell(_: Ask, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
     weights, offsets = np.array(FRACTIONS), np.array(values)
     shown = relative(offsets)[:, 0]
     at_75 = float(np.interp(0.75, weights, shown))
@@ -62,24 +62,24 @@ def _tell(_: Ask, values: list[Any]) -> Finding:
         Fact(
             "below 75 %",
             "gets larger",
-            "grows with every lighter weight" if falls else "does not grow throughout",
+            "increases monotonically with decreasing weight" if falls else "does not increase monotonically",
             AGREES if falls else DIFFERS,
         ),
         Fact(
             "boundary weight",
             "75 % of the nominal",
-            f"{100 * boundary:.0f} % for {100 * SMALL:.0f} % of the largest displacement; the curve is smooth, without a corner",
+            f"{100 * boundary:.0f} % for {100 * SMALL:.0f} % of the largest displacement; the curve is smooth, without a kink",
             AGREES if 0.6 < boundary < 0.8 else DIFFERS,
         ),
     ]
     text = (
         "Rope and sheave of the 50 m tower at rest, car half-way up, sheave mass from 10 % to 100 % of 120 kg. Shown as in "
-        "the paper: the displacement less that under the nominal weight, over the largest. Far from the boundary of "
-        "wrapping, the displacement is nearly EI / (2 r T): it goes with 1 / weight, and so the normalised curve hardly "
+        "the paper: the displacement minus that at the nominal weight, divided by the largest. Far from the limit of "
+        "wrapping, the displacement is about EI / (2 r T), proportional to 1 / weight, so that the normalised curve hardly "
         f"depends on the rope's bending stiffness, which the paper does not state. At 75 % it is {100 * at_75:.1f} % of that "
-        "at 10 %, the lightest tried; the paper's lightest is not stated, and with a heavier one the share at 75 % would be "
-        f"larger. Below {100 * wrap_limit():.0f} % of the nominal weight this rope no longer wraps the sheave and hangs as a "
-        "free loop. With the car half-way the two sides mirror each other."
+        "at 10 %, the smallest one computed; the smallest one of the paper is not stated, and with a larger one the value at "
+        f"75 % is larger. Below {100 * wrap_limit():.0f} % of the nominal weight this rope no longer wraps the sheave and "
+        "hangs as a free loop. With the car half-way up the two sides are mirror images."
     )
     return Finding(facts, [text, Picture("fig4_static_displacement", _draw(weights, offsets)), _numbers(weights, offsets)])
 
@@ -121,10 +121,10 @@ def _draw(weights: Floats, offsets: Floats) -> Any:
 
 STUDY = Study(
     "fig4",
-    "Fig. 4: static displacement over sheave weight",
+    "Fig. 4: static displacement versus sheave weight",
     "The relative displacement is close to zero beyond 75 % of the nominal weight. … If the sheave weight is less than 75 % "
     "of the nominal weight, the relative displacement gets larger due to the bending force.",
     _cases,
     static_offset,
-    _tell,
+    _evaluate,
 )

@@ -1,4 +1,4 @@
-"""Fig. 5: lateral displacement on the trip up the 50 m tower, and its rising frequency."""
+"""Fig. 5: lateral displacement during the trip up the 50 m tower, and its increasing frequency."""
 
 from typing import Any
 
@@ -15,7 +15,7 @@ from ..presets.paper_installations import TOWER, model_in, up
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels, plain_log
-from .study import AGREES, DIFFERS, Ask, Study
+from .study import AGREES, DIFFERS, Study, StudyOptions
 from .swing import swing_case
 
 DISTANCE = 50.0  # m
@@ -40,7 +40,7 @@ def up_trip(case: Case) -> dict[str, list[float]]:
 
 
 def first_mode(rope: CompensationRope, string: HangingString) -> float:
-    """How much of the side's displacement [m] is its slowest swing: the part of sin(pi t) over travel time t from 0 to 1."""
+    """Amplitude [m] of the first mode in the displacement of a side: its component sin(pi t) over wave travel time t, 0 to 1."""
     share = (np.arange(POINTS) + 0.5) / POINTS
     values = side_shape(rope, "counterweight", -rope.state.q[rope.n] + string.height_at(share))
     return float(2.0 * np.mean(values * np.sin(np.pi * share)))
@@ -62,7 +62,7 @@ def _vertex(time: Floats, signal: Floats, k: int) -> float:
     return float(time[k] + 0.5 * (a - c) / (a - 2.0 * b + c) * (time[1] - time[0]))
 
 
-def _tell(_: Ask, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
     v = {key: np.array(one) for key, one in values[0].items()}
     trip = up(TOWER, DISTANCE)
     moving = v["time"] <= trip.end_time
@@ -88,11 +88,11 @@ def _tell(_: Ask, values: list[Any]) -> Finding:
     ]
     swing = 1e3 * 0.5 * np.ptp(v["mode"][moving & (v["time"] > 5.0)])
     text = (
-        "Up trip of 50 m at 150 m/min and 0.80 m/s² (jerk 0.8 m/s³, not stated), nominal sheave. The side's slowest swing, "
-        f"{swing:.1f} mm, is taken out of the rope's shape; each swing, from every extreme to the next but one, gives a "
-        "frequency. The travel-time theory has no motion along the rope in it (speed over wave speed is one tenth here) and "
-        "assumes that a swing sees the length at its middle. While the counterweight's end comes down, a sensor at a fixed "
-        "height sees the rope move towards the plumb line of its end, with the swing on top."
+        "Trip of 50 m up at 150 m/min and 0.80 m/s² (jerk 0.8 m/s³, not stated), nominal sheave. The component of the first "
+        f"mode, {swing:.1f} mm, is extracted from the shape of the side; each period, from an extreme to the next but one, "
+        "gives a frequency. The WKB theory neglects the axial motion of the rope (a tenth of the wave speed here) and "
+        "evaluates the length at the middle of each period. While the counterweight descends, a sensor at a fixed height also "
+        "measures the approach of the rope to the vertical through its end."
     )
     table = Table(
         ("time [s]", "frequency [Hz]", "theory [Hz]", "difference [%]"),
@@ -100,7 +100,7 @@ def _tell(_: Ask, values: list[Any]) -> Finding:
             (f"{t:.2f}", f"{f:.3f}", f"{g:.3f}", f"{100 * e:+.1f}")
             for t, f, g, e in list(zip(at, found, theory, error, strict=True))[::4]
         ],
-        "Every fourth half swing",
+        "Every fourth half period",
     )
     return Finding(facts, [text, Picture("fig5_up_trip", _draw(v, at, found)), table])
 
@@ -111,10 +111,10 @@ def _draw(v: dict[str, Floats], at: Floats, found: Floats) -> Any:
     sensor.plot(v["time"][seen], 1e3 * (v["sensor"][seen] - v["sensor"][0]), color=COLOURS[0])
     label(sensor, "", "from rest [mm]", f"counterweight's side at {SENSOR} m")
     mode.plot(v["time"], 1e3 * (v["mode"] - v["mode"][0]), color=COLOURS[0])
-    label(mode, "", "from rest [mm]", "slowest swing of the side")
-    frequency.semilogy(at, found, "o", color=COLOURS[1], markersize=3.5, label="each swing")
+    label(mode, "", "from rest [mm]", "first mode of the side")
+    frequency.semilogy(at, found, "o", color=COLOURS[1], markersize=3.5, label="each period")
     frequency.semilogy(v["time"], v["theory"], color=COLOURS[0], label="√(T/ρ)/2L along the side")
-    label(frequency, "time [s]", "frequency [Hz]", "frequency of that swing")
+    label(frequency, "time [s]", "frequency [Hz]", "frequency of this mode")
     plain_log(frequency.yaxis)
     legend(frequency)
     car.plot(v["time"], v["car"], color=COLOURS[0])
@@ -131,5 +131,5 @@ STUDY = Study(
     ),
     lambda _: [swing_case(TOWER, DISTANCE)],
     up_trip,
-    _tell,
+    _evaluate,
 )

@@ -1,4 +1,4 @@
-"""Fig. 6: the largest lateral displacement over running distance, by many measures and parameters."""
+"""Fig. 6: largest lateral displacement versus running distance, for several measures and parameters."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ from ..report.finding import Fact, Finding
 from ..report.page import Block, Picture, Table
 from ..report.plot_style import COLOURS, GREY, label, legend, panels
 from .peaks import oscillator_peak, peak
-from .study import AGREES, DIFFERS, PARTLY, Ask, Study
+from .study import AGREES, DIFFERS, PARTLY, Study, StudyOptions
 from .swing import MEASURES, swing, swing_case
 
 DISTANCES = (8.0, 11.0, 14.0, 18.0, 22.0, 25.0, 28.0, 32.0, 36.0, 42.0, 50.0, 62.0)  # m
@@ -32,19 +32,19 @@ VARIANTS: dict[str, dict[str, float]] = {
 }
 
 
-def _cases(_: Ask) -> list[Case]:
+def _cases(_: StudyOptions) -> list[Case]:
     return [swing_case(BUILDING, distance, changes) for changes in VARIANTS.values() for distance in DISTANCES]
 
 
 def fixed_peaks(rows: list[Any]) -> list[tuple[float, float]]:
-    """Heights [m] of fixed sensors that see the rope on every trip, and the distance [m] of the largest swing after it there."""
+    """Heights [m] of sensors with the rope in view on every trip, and the distance [m] of the largest swing after it there."""
     swings = np.array([row["by_height"] for row in rows])
     heights = np.array(rows[0]["heights"])
     seen = (swings > 0.0).all(axis=0) & (heights > 5.0)
     return [(float(height), peak(np.array(DISTANCES), one)) for height, one in zip(heights[seen], swings.T[seen], strict=True)]
 
 
-def _tell(_: Ask, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
     count = len(DISTANCES)
     by_variant = {name: values[k * count : (k + 1) * count] for k, name in enumerate(VARIANTS)}
     peaks = {
@@ -61,7 +61,7 @@ def _tell(_: Ask, values: list[Any]) -> Finding:
         Picture(
             "fig6_peak_by_height",
             _draw_heights(heights),
-            "Where the peak lies if the swing after the trip is measured at a fixed height.",
+            "Running distance of the peak if the swing after the trip is measured at a fixed height.",
         ),
         _comparison(base),
     ]
@@ -79,36 +79,36 @@ def _facts(peaks: dict[str, dict[str, float]], base: list[Any], heights: list[tu
         Fact(
             "peak of the swing in the middle of the rope",
             "22 m",
-            f"{middle:.0f} m (its slowest swing alone {mode:.0f} m); above 90 % of the largest from {low:.0f} to {high:.0f} m",
+            f"{middle:.0f} m (first mode only {mode:.0f} m); above 90 % of the largest from {low:.0f} to {high:.0f} m",
             AGREES if abs(middle - STATED) <= NEAR else PARTLY if low <= STATED <= high else DIFFERS,
         ),
         Fact(
-            "same, other parameters",
+            "the same with other parameters",
             "22 m",
             "within 2 m of it: "
-            + (", ".join(others) + " (whose period is not the stated one)" if others else "none of those tried"),
+            + (", ".join(others) + " (whose period is not the stated one)" if others else "none of these"),
             PARTLY if others else DIFFERS,
         ),
         Fact(
             "peak of the swing after the trip at a fixed height",
             "22 m",
             (
-                f"20 to 24 m for sensors at {where}; at half the shaft's height {min(half):.0f} to {max(half):.0f} m over all "
-                "parameters tried"
+                f"20 to 24 m for sensors at {where}; at half the shaft height {min(half):.0f} to {max(half):.0f} m for all "
+                "parameters"
             ),
             PARTLY if found else DIFFERS,
         ),
         Fact(
             "displacement over distance",
             "rises to one peak, then falls",
-            "so for swings after the trip; the largest during the trip keeps growing with distance and speed",
+            "yes for the swing after the trip; the maximum during the trip increases with distance and speed throughout",
             PARTLY,
         ),
     ]
 
 
 def _within(rows: list[Any], key: str, share: float) -> tuple[float, float]:
-    """The range of distances [m] over which a measure is above a share of its largest value."""
+    """The range of distances [m] over which a measure exceeds a fraction of its largest value."""
     fine = np.linspace(DISTANCES[0], DISTANCES[-1], 600)
     values = np.interp(fine, DISTANCES, [row[key] for row in rows])
     inside = fine[values >= share * values.max()]
@@ -122,15 +122,15 @@ def _explain(peaks: dict[str, dict[str, float]]) -> str:
     half = peaks["as the preset"]["half_shaft_after"]
     same_period = [one["middle_after"] for name, one in peaks.items() if not name.startswith("sheave")]
     return (
-        "The paper does not say which displacement it plots, nor bending stiffness or damping. Why the middle of the rope "
-        "peaks later than 22 m: a linear oscillator driven by this profile is left with the largest swing not when the trip "
-        f"lasts its period but about one jerk time longer, {string.period():.2f} + {ramp:.2f} s, which is a distance of "
-        f"{oscillator_peak(string.period()):.0f} m; the maximum is broad. Bending stiffness, damping and friction change how "
-        f"far the rope swings, and hardly where the peak lies: {min(same_period):.0f} to {max(same_period):.0f} m. Two things "
-        "bring it to 22 m. A sensor at a fixed height sees a smaller share of the swing as the rope's upper end comes nearer, "
-        f"which moves the peak to shorter trips: at half the shaft's height it is at {half:.0f} m with the preset's values. Or "
-        f"a heavier sheave: with {HEAVY:g} kg the period at 22 m is {heavy:.2f} s, but the paper states 10.27 s. What it says "
-        "of the cause, that the swing is large where the trip's duration is near the natural period, holds."
+        "The paper does not state which displacement is plotted, nor bending stiffness and damping. For the middle of the "
+        "rope the peak is beyond 22 m: the residual vibration of a linear oscillator excited by this profile is largest if "
+        f"the trip is longer than its period by about one jerk time, {string.period():.2f} + {ramp:.2f} s, which is a distance "
+        f"of {oscillator_peak(string.period()):.0f} m; the maximum is broad. Bending stiffness, damping and friction change "
+        f"the amplitude, but hardly the position of the peak: {min(same_period):.0f} to {max(same_period):.0f} m. Two changes "
+        "move it to 22 m. At a fixed height the amplitude decreases as the upper end of the rope approaches the sensor, which "
+        f"moves the peak to shorter trips: at half the shaft height it is at {half:.0f} m with the values of the preset. With "
+        f"a sheave of {HEAVY:g} kg the period at 22 m is {heavy:.2f} s, but the paper states 10.27 s. The explanation of the "
+        "paper, a large swing if the duration of the trip is close to the natural period, is confirmed."
     )
 
 
@@ -180,7 +180,7 @@ def _draw(by_variant: dict[str, list[Any]]) -> Any:
     for axes, title in ((left, "the preset, several measures"), (right, "middle after the trip, several parameters")):
         axes.axvline(STATED, color=GREY, linewidth=0.9)
         axes.set_ylim(0.0, 1.85)
-        label(axes, "running distance [m]", "over its maximum", title)
+        label(axes, "running distance [m]", "displacement / maximum", title)
         legend(axes, loc="upper left")
     return figure
 
@@ -195,10 +195,10 @@ def _draw_heights(heights: list[tuple[float, float]]) -> Any:
 
 STUDY = Study(
     "fig6",
-    "Fig. 6: displacement over running distance",
+    "Fig. 6: displacement versus running distance",
     "The displacement reaches the peak at 22m distance. … Hence this result indicates that if the natural period of the "
     "compensation rope is close to the car acceleration, the lateral vibration of the compensation rope increases.",
     _cases,
     swing,
-    _tell,
+    _evaluate,
 )

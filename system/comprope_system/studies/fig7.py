@@ -11,7 +11,7 @@ from ..presets.paper_installations import BUILDING, LIMITS, limits, up
 from ..report.finding import Fact, Finding
 from ..report.page import Picture
 from ..report.plot_style import FIRST, label, panels
-from .study import AGREES, DIFFERS, Ask, Study
+from .study import AGREES, DIFFERS, Study, StudyOptions
 
 DISTANCE, DURATION = 22.0, 10.2  # m, s, both stated
 
@@ -37,7 +37,7 @@ def profile(case: Case) -> dict[str, float]:
     }
 
 
-def _tell(_: Ask, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
     (v,) = values
     speed, acceleration, jerk = LIMITS[BUILDING]
     reaches = v["duration"] - DURATION
@@ -82,5 +82,5 @@ STUDY = Study(
     "The time period of the car motion is 10.2 seconds.",
     lambda _: [{"trip": limits(BUILDING, DISTANCE)}],
     profile,
-    _tell,
+    _evaluate,
 )

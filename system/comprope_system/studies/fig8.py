@@ -1,4 +1,4 @@
-"""Fig. 8: the displacement over sheave weight, on trips whose duration is the rope's natural period."""
+"""Fig. 8: displacement versus sheave weight, for trips whose duration is the natural period of the rope."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from ..presets.paper_installations import BUILDING, building, up, with_sheave
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels, plain_log
-from .study import AGREES, DIFFERS, PARTLY, Ask, Study
+from .study import AGREES, DIFFERS, PARTLY, Study, StudyOptions
 from .swing import MEASURES, swing, swing_case
 
 MASSES = (35.0, 42.0, 50.0, 60.0, 72.0, 86.0, 102.0, 119.0, 140.0, 165.0, 190.0)  # kg
@@ -26,7 +26,7 @@ def tuned_distance(mass: float) -> float:
     return float(brentq(lambda d: up(BUILDING, d).duration - side_string(model, d).period(), 3.0, 80.0))
 
 
-def _cases(_: Ask) -> list[Case]:
+def _cases(_: StudyOptions) -> list[Case]:
     tuned = [swing_case(BUILDING, round(tuned_distance(mass), 3), with_sheave(BUILDING, mass)) for mass in MASSES]
     return tuned + [swing_case(BUILDING, FIXED, with_sheave(BUILDING, mass)) for mass in MASSES]
 
@@ -49,7 +49,7 @@ def fits(mass: Floats, value: Floats) -> dict[str, tuple[float, float, float]]:
     return found
 
 
-def _tell(_: Ask, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
     mass, tuned, fixed = np.array(MASSES), values[: len(MASSES)], values[len(MASSES) :]
     laws = {key: fits(mass, np.array([row[key] for row in tuned])) for key in SHOWN}
     falls = all(np.all(np.diff([row[key] for row in tuned]) < 0.0) for key in SHOWN)
@@ -59,7 +59,7 @@ def _tell(_: Ask, values: list[Any]) -> Finding:
         Fact(
             "displacement as the sheave gets lighter",
             "increases",
-            "increases throughout, by every measure" if falls else "increases, not throughout by every measure",
+            "increases monotonically, for every measure" if falls else "increases, but not monotonically for every measure",
             AGREES if falls else PARTLY,
         ),
         Fact(
@@ -73,11 +73,11 @@ def _tell(_: Ask, values: list[Any]) -> Finding:
         ),
     ]
     text = (
-        "The sheave is the same disc, lighter or heavier (inertia in proportion), in the 200 m building. For each mass the "
-        "trip is the one that lasts the natural period at its end. An exponential in the mass and a power law are both "
-        "fitted as straight lines to the logarithm; the smaller AIC is better, by more than 2 to mean something. The "
-        "displacement is driven by the rope's bending at the sheave, of the order EI / (2 r T), whence powers of the "
-        "tension."
+        "200 m building; the inertia of the sheave is proportional to its mass, its radius constant. For each mass the "
+        "duration of the trip equals the natural period at its end. An exponential in the mass and a power law are both "
+        "fitted as straight lines to the logarithm of the displacement; the smaller AIC is better, and a difference above 2 "
+        "is significant. The rope is excited by its bending at the sheave, of the order EI / (2 r T), which explains powers "
+        "of the tension."
     )
     return Finding(
         facts, [text, Picture("fig8_sheave_weight", _draw(mass, tuned, fixed, laws)), _law_table(laws), _table(tuned, fixed)]
@@ -102,7 +102,7 @@ def _law_table(laws: dict[str, dict[str, tuple[float, float, float]]]) -> Table:
     return Table(
         ("measure", "exponential", "R²", "AIC", "power law", "R²", "AIC"),
         rows,
-        "Fits on the tuned trips; R² and AIC of log displacement",
+        "Fits for trips of one natural period; R² and AIC of log displacement",
     )
 
 
@@ -133,7 +133,7 @@ def _draw(mass: Floats, tuned: list[Any], fixed: list[Any], laws: Any) -> Any:
         values = np.array([row["middle_after"] for row in rows])
         right.plot(mass, values / values.max(), style, color=COLOURS[style == "s--"], markersize=4, label=name)
     label(left, "sheave mass [kg]", "displacement [mm]", "lines: exponential; dots: power law")
-    label(right, "sheave mass [kg]", "over its maximum", "middle of the rope after the trip")
+    label(right, "sheave mass [kg]", "displacement / maximum", "middle of the rope after the trip")
     left.set_ylim(top=left.get_ylim()[1] * 6.0)
     plain_log(left.yaxis)
     legend(left, loc="upper right", handlelength=1.0)
@@ -150,5 +150,5 @@ STUDY = Study(
     ),
     _cases,
     swing,
-    _tell,
+    _evaluate,
 )

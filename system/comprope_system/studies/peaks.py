@@ -1,4 +1,4 @@
-"""Where a curve over running distance has its peak, and where a linear oscillator's would be."""
+"""Running distance at which a curve has its peak, and that of the residual vibration of a linear oscillator."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from ..presets.paper_installations import BUILDING, up
 
 
 def peak(distances: Floats, values: Floats) -> float:
-    """Distance [m] of the largest value, by the parabola through the three largest; an end of the range if it is there."""
+    """Distance [m] of the largest value, from the parabola through three samples; an end of the range if it is largest."""
     k = int(np.argmax(values))
     if k in (0, len(values) - 1):
         return float(distances[k])
@@ -16,7 +16,7 @@ def peak(distances: Floats, values: Floats) -> float:
 
 
 def oscillator_peak(period: float) -> float:
-    """Running distance [m] at which a linear oscillator of this period [s] is left with the largest swing.
+    """Running distance [m] for which the residual vibration of a linear oscillator of this period [s] is largest.
 
     The profile's spectrum is proportional to sin(w D / 4) sin(w (D / 2 - Tj) / 2), D its duration and Tj the jerk's,
     largest about D = period + Tj, not at D = period. Found on the exact profile.

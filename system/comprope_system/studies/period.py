@@ -1,4 +1,4 @@
-"""Section 5.1: the natural period of 10.27 s with the car at 22 m, and the sheave mass it tells."""
+"""Section 5.1: the natural period of 10.27 s with the car at 22 m, and the sheave mass derived from it."""
 
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +16,7 @@ from ..presets.paper_installations import BUILDING, building, model_in, table, w
 from ..report.finding import Fact, Finding
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels
-from .study import AGREES, DIFFERS, Ask, Study
+from .study import AGREES, DIFFERS, Study, StudyOptions
 
 CAR, PERIOD = 22.0, 10.27  # m, s, both stated
 PITS = (0.5, 1.5, 3.0)  # m; not stated
@@ -24,7 +24,7 @@ MODES = 16  # enough to hold the first of the counterweight's side where that is
 CARS = (0.0, 11.0, 22.0, 44.0, 66.0, 100.0, 133.0, 166.0, 190.0)
 
 
-def _cases(_: Ask) -> list[Case]:
+def _cases(_: StudyOptions) -> list[Case]:
     return [
         *({"model": table(BUILDING, {"shaft.pit": pit})} for pit in PITS),
         *({"model": table(BUILDING), "car": car} for car in CARS),
@@ -54,21 +54,21 @@ def _root(model: RopeModel, period: Callable[[Base], float]) -> float:
     return float(brentq(lambda mass: period(with_changes(model, with_sheave(model, mass))) - PERIOD, 60.0, 250.0, xtol=1e-3))
 
 
-def _tell(_: Ask, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
     found, at = dict(zip(PITS, values[: len(PITS)], strict=True)), values[len(PITS) :]
     own = building(BUILDING)
     mass, here = found[own.shaft.pit], at[CARS.index(CAR)]
     rows = [(f"{pit:g}", *(f"{one[key]:.1f}" for key in ("model", "string", "wkb"))) for pit, one in found.items()]
     masses = Table(
-        ("pit [m]", "model [kg]", "hanging string [kg]", "travel time [kg]"),
+        ("pit [m]", "model [kg]", "hanging string [kg]", "WKB [kg]"),
         rows,
         "Sheave mass for 10.27 s with the car at 22 m, for 1.2 kg/m",
     )
     facts = [
         Fact(
-            "sheave mass for each rope of 1.2 kg/m",
-            "about 119 kg (derived, by travel time)",
-            f"{mass['model']:.1f} kg from the model, {mass['wkb']:.1f} kg by travel time",
+            "sheave mass per rope of 1.2 kg/m",
+            "about 119 kg (derived, WKB)",
+            f"{mass['model']:.1f} kg with the model, {mass['wkb']:.1f} kg with WKB",
             AGREES if abs(mass["wkb"] - 119.0) < 3.0 else DIFFERS,
         ),
         Fact(
@@ -79,12 +79,12 @@ def _tell(_: Ask, values: list[Any]) -> Finding:
         ),
     ]
     text = (
-        "The period depends on tension over mass per length only. The linearised model, with rope stuck to a free sheave, "
-        "agrees with an ideal hanging string held at the axle's height within "
+        "The period depends on tension / mass per length only. The linearised model, with the rope sticking to a free sheave, "
+        "agrees with an ideal hanging string fixed at the height of the axle within "
         f"{1e6 * abs(here['model'] / here['string'] - 1.0):.0f} parts in a million at 22 m: bending and wrapping hardly "
-        "matter for the slowest swing. The travel-time estimate (4/g)(√(c₀² + gL) − c₀) is "
-        f"{100 * (1.0 - here['wkb'] / here['model']):.1f} % shorter, which is worth {mass['model'] - mass['wkb']:.1f} kg of "
-        "sheave. Height, pit and rope are those of the preset; the pit is not stated, and moves the mass by the table."
+        "affect the first mode. The WKB estimate (4/g)(√(c₀² + gL) − c₀) is "
+        f"{100 * (1.0 - here['wkb'] / here['model']):.1f} % shorter, which corresponds to {mass['model'] - mass['wkb']:.1f} kg "
+        "of sheave mass. Height, pit and rope are those of the preset; the pit is not stated, its influence is in the table."
     )
     return Finding(facts, [text, masses, Picture("period_over_car_position", _draw(at))])
 
@@ -93,7 +93,7 @@ def _draw(at: list[dict[str, float]]) -> Any:
     figure, (axes,) = panels(height=3.2)
     axes.plot(CARS, [one["model"] for one in at], "o", color=COLOURS[0], label="model")
     axes.plot(CARS, [one["string"] for one in at], "-", color=COLOURS[1], label="hanging string (Bessel)")
-    axes.plot(CARS, [one["wkb"] for one in at], ":", color=COLOURS[2], label="travel time (WKB)")
+    axes.plot(CARS, [one["wkb"] for one in at], ":", color=COLOURS[2], label="WKB")
     axes.plot([CAR], [PERIOD], "k+", markersize=12, label="stated")
     label(axes, "height of the car [m]", "first natural period [s]", "counterweight's side")
     legend(axes)
@@ -102,9 +102,9 @@ def _draw(at: list[dict[str, float]]) -> Any:
 
 STUDY = Study(
     "period",
-    "Section 5.1: natural period, and the sheave mass it tells",
+    "Section 5.1: natural period and sheave mass",
     "The natural period of the compensation rope is 10.27 seconds when the car is 22m from the base.",
     _cases,
     identify,
-    _tell,
+    _evaluate,
 )

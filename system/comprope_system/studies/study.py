@@ -1,4 +1,4 @@
-"""What a study is: cases to run, a function that runs one, and what it makes of their results."""
+"""A study: its cases, the function that simulates one, and the evaluation of the results."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,8 +12,8 @@ AGREES, DIFFERS, PARTLY = "yes", "no", "partly"
 
 
 @dataclass(frozen=True)
-class Ask:
-    """What a user can choose: building, running distance [m] and limit [m] of the design study."""
+class StudyOptions:
+    """Options of the study `design`: building, running distance [m] and displacement limit [m]."""
 
     building: str = "building200"
     distance: float = 22.0
@@ -22,17 +22,17 @@ class Ask:
 
 @dataclass(frozen=True)
 class Study:
-    """`cases(ask)` are run by `task`, in any order and place; `tell(ask, values)` makes the finding.
+    """Cases `cases(options)`, simulated by `task` in any order and process; `evaluate(options, values)` gives the finding.
 
-    `quote` is what the paper says, `title` where.
+    `quote` is the statement of the paper, `title` its section or figure.
     """
 
     name: str
     title: str
     quote: str
-    cases: Callable[[Ask], list[Case]]
+    cases: Callable[[StudyOptions], list[Case]]
     task: Task
-    tell: Callable[[Ask, list[Any]], Finding]
+    evaluate: Callable[[StudyOptions, list[Any]], Finding]
 
     def section(self, finding: Finding) -> Section:
         """The finding as a section of a page."""

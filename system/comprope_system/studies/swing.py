@@ -1,4 +1,4 @@
-"""How far the rope swings on a trip up from the bottom, by every measure that a figure may have meant."""
+"""Swing of the rope on a trip up from the bottom, by all measures that a figure of the paper may show."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -91,11 +91,11 @@ def _measures(own: Floats, fixed: Floats, car: Floats, after: NDArray[np.bool_])
 
 
 def half_swing(values: Floats) -> Floats:
-    """Half of the range over time, for each place (times, places); NaN where the rope was away for a while."""
+    """Half the peak-to-peak value over time, for each place (times, places); NaN where the rope was not always in view."""
     return 0.5 * (values.max(axis=0) - values.min(axis=0))
 
 
 def from_rest(values: Floats) -> Floats:
-    """The farthest from the first value over time, for each place; moments when the rope is away do not count."""
+    """Largest deviation from the first value over time, for each place, while the rope is in view."""
     away = np.abs(values - values[0])
     return np.where(np.isfinite(away), away, 0.0).max(axis=0)

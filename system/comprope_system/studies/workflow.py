@@ -1,4 +1,4 @@
-"""What `comprope study` does: run the studies asked for, draw their figures, write one page."""
+"""Workflow of `comprope study`: run the studies selected, draw their figures, write one page."""
 
 import importlib
 import sys
@@ -14,38 +14,38 @@ from ..parallel.executors import workers
 from ..parallel.sweep import sweep, values
 from ..report.finding import Fact, Finding, fact_table
 from ..report.page import Section, save_page, save_pictures
-from .study import Ask, Study
+from .study import Study, StudyOptions
 
 NAMES = ("fig4", "fig5", "fig6", "fig7", "period", "fig8", "design")  # as the paper has them
 PAGE, STORE = "studies.html", "results.jsonl"
-TITLE = "Compensation rope: stated and obtained"
+TITLE = "Compensation rope: results stated in the paper and obtained"
 LEAD = (
     "Every result of Nakazawa, Watanabe, Fukui and Okawa, “Lateral vibration analysis for elevator compensation rope”, "
-    "computed anew. The figures are known by what the text states of them; rope, radius and pit, which it does not state, "
-    "are typical values."
+    "reproduced. Stated values are taken from the text of the paper; for rope, sheave radius and pit, which are not stated, "
+    "typical values are used."
 )
 
 
 @dataclass(frozen=True)
 class Request:
-    """Studies by name (all if none), folder for the results, processes, a cluster's address, and the design study's question."""
+    """Names of studies (default all), folder for the results, number of processes, address of a cluster, options."""
 
     names: Sequence[str]
     out: Path
     jobs: int | None = None
     executor: str | None = None
-    ask: Ask = Ask()  # noqa: RUF009 -- frozen
+    options: StudyOptions = StudyOptions()  # noqa: RUF009 -- frozen
 
 
 def run(request: Request) -> dict[str, Finding]:
-    """Run the studies and write figures and page; results of an interrupted run of the same folder are taken over."""
+    """Run the studies and write figures and page; an interrupted run in the same folder is resumed."""
     studies = [find(name) for name in request.names or NAMES]
     require_writable(request.out / PAGE)
     findings = {}
     with workers(request.jobs, request.executor) as executor:
         for study in studies:
-            outcomes = sweep(study.task, study.cases(request.ask), executor, request.out / STORE, study.name)
-            findings[study.name] = study.tell(request.ask, values(outcomes))
+            outcomes = sweep(study.task, study.cases(request.options), executor, request.out / STORE, study.name)
+            findings[study.name] = study.evaluate(request.options, values(outcomes))
     sections = [study.section(findings[study.name]) for study in studies]
     facts = [fact for finding in findings.values() for fact in finding.facts]
     save_pictures(request.out, sections)

@@ -1,1 +1,1 @@
-"""Checks of the numerics: against another program, closed forms, symmetry and conservation. One check a module."""
+"""Verification of the numerics: another program, closed-form solutions, symmetry, conservation. One check per module."""

@@ -1,4 +1,4 @@
-"""What a check is: a question about the numerics, and the runs that answer it."""
+"""A check of the numerics: a title, and the simulations that decide it."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ PASS, FAIL = "pass", "fail"
 
 @dataclass(frozen=True)
 class Check:
-    """`run()` makes the finding; `title` says what is checked."""
+    """`run()` returns the finding; `title` names what is checked."""
 
     name: str
     title: str

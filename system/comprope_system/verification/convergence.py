@@ -35,7 +35,7 @@ AMPLITUDE, RISE, SWING, COARSE = (
 
 
 def seen(rope: CompensationRope) -> Floats:
-    """Displacements [m] that sensors at HEIGHTS see on the counterweight's side."""
+    """Displacements [m] on the counterweight side at HEIGHTS."""
     return np.array([rope.lateral_displacement("counterweight", height)[0] for height in HEIGHTS])
 
 
@@ -55,7 +55,7 @@ def at_rest(changes: dict[str, float]) -> Floats:
 
 
 def led_sideways(changes: dict[str, float]) -> Floats:
-    """Displacements [m] while the counterweight's end moves sideways and stays (times, heights): no rope runs over the sheave."""
+    """Displacements [m] during a lateral motion of the counterweight end (times, heights): no rope runs over the sheave."""
     model, car = building(TOWER, changes), 10.0
     rope, found = CompensationRope(model), []
     rope.settle(car, model.shaft.height - car)
@@ -77,7 +77,7 @@ def _sideways(time: float) -> tuple[float, float, float]:
 
 
 def order(sizes: tuple[float, ...], errors: Floats) -> float:
-    """The slope of log error over log size."""
+    """Order of convergence: slope of log error versus log size."""
     return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
 
 
@@ -123,12 +123,12 @@ def _run() -> Finding:
     for name, error in (("mesh, 5 cm", mesh["on a trip"][2]), ("step, 4 ms", step["on a trip, damping 0.15"][2])):
         facts.append(judged(f"default {name}, on a trip", "under 0.1 mm rms", f"{1e3 * error:.4f} mm", error < 1e-4))
     text = (
-        f"50 m tower; lateral displacement at {', '.join(f'{h:g}' for h in HEIGHTS)} m on the counterweight's side, rms of "
-        f"the difference from {1e3 * FINEST_ELEMENT:g} mm elements or steps of {1e3 * FINEST_STEP:g} ms. On a trip: the "
-        f"first {UNTIL:g} s up the tower. Led sideways: the counterweight's end moves by {1e3 * AMPLITUDE:g} mm in {RISE:g} "
-        "s and stays. Numerical damping 0 is the paper's Newmark rule, 0.15 the default. Newmark's rule shows its order 2 "
-        "where no rope runs over the sheave; on a trip, elements come into contact and leave it, faster than steps resolve, "
-        "and the order is lower, at errors of micrometres."
+        f"50 m tower; lateral displacement at {', '.join(f'{h:g}' for h in HEIGHTS)} m on the counterweight's side, rms of the "
+        f"difference from {1e3 * FINEST_ELEMENT:g} mm elements or steps of {1e3 * FINEST_STEP:g} ms. On a trip: the first "
+        f"{UNTIL:g} s up the tower. Led sideways: the counterweight end moves laterally by {1e3 * AMPLITUDE:g} mm in {RISE:g} "
+        "s. Numerical damping 0 is the paper's Newmark rule, 0.15 the default. The order is 2 if no rope runs over the "
+        "sheave; on a trip, contact of elements changes faster than the time steps resolve, and the order is lower, with "
+        "errors of micrometres."
     )
     blocks: list[Block] = [
         text,

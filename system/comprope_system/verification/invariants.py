@@ -1,4 +1,4 @@
-"""What must hold exactly: mirror symmetry, going on from a saved state, conservation of energy."""
+"""Invariants: mirror symmetry, restart from a saved state, conservation of energy."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ ROUNDING = 1e-8  # m: Newton's iteration ends at corrections of 1e-8 m, which ne
 
 
 def mirrored(path: Floats) -> Floats:
-    """The way of the ends seen in a mirror: car and counterweight change places, sideways changes sign."""
+    """Mirror image of the motion of the ends: car and counterweight exchanged, lateral motion with the opposite sign."""
     car_x, car_y, other_x, other_y = path.reshape(4, 6)
     return np.concatenate([other_x, -other_y, car_x, -car_y])
 
@@ -41,7 +41,7 @@ def mirror_difference() -> float:
 
 
 def restart_differs() -> bool:
-    """Whether a run that goes on in another rope from saved bytes ends in any other bit."""
+    """Whether a restart from a saved state, in another instance of the rope, changes any bit of the result."""
     model, trip = building(TOWER), up(TOWER, DISTANCE)
     rope, other = CompensationRope(model), CompensationRope(model)
     steps = list(enumerate(ride(rope, trip, 6.0)))
@@ -68,23 +68,23 @@ def _run() -> Finding:
     facts = [
         judged("trip and its mirror image", f"equal within {ROUNDING:g} m", f"{mirror:.1e} m at most", mirror < ROUNDING),
         judged(
-            "run that goes on from a saved state", "equal bit for bit", "differs" if restart else "equal bit for bit", not restart
+            "restart from a saved state", "bitwise equal", "differs" if restart else "bitwise equal", not restart
         ),
         judged(
-            "energy not accounted for, step 4 ms",
-            f"under 0.1 % of the {scale:.0f} J the ends exchange",
+            "energy residual, step 4 ms",
+            f"under 0.1 % of the {scale:.0f} J exchanged by the ends",
             f"{100 * share:.4f} %",
             share < 1e-3,
         ),
         judged("the same at half the step", "less", f"{left[2] / left[1]:.2f} of it", bool(left[2] < left[1])),
     ]
     text = (
-        f"A trip of {DISTANCE:g} m up the tower and {UNTIL:g} s. Energy: stored less stored at the start, less the work of "
-        "the ends, plus every loss, summed by the trapezoidal rule; the rule of time is the paper's, without numerical "
-        "damping. What remains is the rule's error where stiff contact and fast axial waves are not resolved."
+        f"A trip of {DISTANCE:g} m up the tower and {UNTIL:g} s. Energy residual: stored energy minus its initial value, minus "
+        "the work of the ends, plus all losses, integrated by the trapezoidal rule; time integration as in the paper, without "
+        "numerical damping. The residual is the integration error where stiff contact and axial waves are not resolved."
     )
     rows = [(f"{1e3 * step:g}", f"{value:.2e}") for step, value in zip(STEPS, left, strict=True)]
-    table = Table(("step [ms]", "energy not accounted for [J]"), rows)
+    table = Table(("step [ms]", "energy residual [J]"), rows)
     return Finding(facts, [text, Picture("verify_energy", _draw(series, left)), table])
 
 
@@ -94,7 +94,7 @@ def _draw(series: dict[float, tuple[Floats, Floats]], left: Floats) -> Any:
         time.plot(at, 1e3 * seen[:, 0], color=COLOURS[k], linewidth=1.0, label=f"{1e3 * step:g} ms")
     size.loglog([1e3 * step for step in STEPS], 1e3 * left, "o-", color=COLOURS[0], markersize=4)
     plain_log(size.xaxis)
-    label(time, "time [s]", "energy not accounted for [mJ]")
+    label(time, "time [s]", "energy residual [mJ]")
     label(size, "time step [ms]", "at most [mJ]")
     legend(time)
     return figure

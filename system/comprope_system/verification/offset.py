@@ -1,4 +1,4 @@
-"""Closed form: how far from the plumb line a stiff rope leaves the sheave."""
+"""Closed-form solution for the lateral offset of a rope with bending stiffness leaving the sheave."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -76,17 +76,17 @@ def _run() -> Finding:
     worst = max(row.worst for row in rows)
     facts = [
         judged(
-            "displacement over the closed form, rigid groove",
+            "displacement / closed form, rigid groove",
             f"1 within {100 * ALLOWED:g} %",
             f"within {100 * worst:.2f} %",
             worst < ALLOWED,
         ),
     ]
     text = (
-        "A weightless rope leaves the groove EI / (2 r T) from the plumb line, whatever the slope at which it leaves. The "
-        "rope's weight makes the tension grow within the bend and above it, and the pinned end takes the offset back to "
-        "zero; the closed form has all three, to first order in the weight. It means a rigid groove and a fine mesh (1e9 "
-        "N/m², 12.5 mm); the last column has the preset's own (1.2e7 N/m², 5 cm), whose groove gives way."
+        "The offset of a weightless rope leaving the groove is EI / (2 r T), for any slope at which it leaves. The weight of the "
+        "rope increases the tension within the bend and above it, and the offset vanishes at the pinned end; the closed-form "
+        "solution includes all three, to first order in the weight. It holds for a rigid groove and a fine mesh (1e9 "
+        "N/m², 12.5 mm); the last column is for groove and mesh of the preset (1.2e7 N/m², 5 cm)."
     )
     numbers = [
         (f"{row.stiffness:g}", f"{row.mass:g}", f"{1e3 * row.rigid[0]:.3f}", f"{1e3 * row.form[0]:.3f}", f"{100 * row.worst:.3f}",

@@ -1,4 +1,4 @@
-"""Closed form: natural periods of the sides against the hanging string."""
+"""Natural periods of the sides against the closed-form solution of a hanging string."""
 
 from typing import Any
 
@@ -28,16 +28,16 @@ def _run() -> Finding:
     worst = max(abs(mode.period / exact - 1.0) for mode, exact, _ in rows)
     facts = [
         judged(
-            "periods of the lateral modes over the string's",
+            "periods of the lateral modes / those of the string",
             f"1 within {100 * ALLOWED:g} %",
             f"within {100 * worst:.3f} %",
             worst < ALLOWED,
         )
     ]
     text = (
-        "The 200 m building, car at 22 m, linearised about the shape at rest: rope stuck to a sheave that is free to turn "
-        "and to rise. The string has the tension at the axle's height and is held there; bending stiffness shortens the "
-        "higher modes a little more."
+        "The 200 m building, car at 22 m, linearised about the static shape, with the rope sticking to a sheave that is free to "
+        "rotate and to rise. The string has the tension at the height of the axle and is fixed there; bending stiffness reduces "
+        "the periods of higher modes slightly."
     )
     numbers = [
         (
@@ -50,7 +50,7 @@ def _run() -> Finding:
         )
         for mode, exact, wkb in rows
     ]
-    head = ("side", "half waves", "model [s]", "string, Bessel [s]", "string, WKB [s]", "model over Bessel less 1 [‰]")
+    head = ("side", "half waves", "model [s]", "string, Bessel [s]", "string, WKB [s]", "model / Bessel - 1 [‰]")
     return Finding(facts, [text, Table(head, numbers), Picture("verify_modes", _draw(found))])
 
 

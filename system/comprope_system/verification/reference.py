@@ -1,4 +1,4 @@
-"""Another program: a hanging rope with a free mass at its lower end, led sideways at its upper end."""
+"""Comparison with another program: a hanging rope with a free mass, excited laterally at its upper end."""
 
 from pathlib import Path
 from typing import Any
@@ -44,9 +44,9 @@ def _run() -> Finding:
     ]
     text = (
         "Rope of 50 m, 1.2 kg/m, EA 1e7 N, EI 20 N m², 60 kg free at the lower end, no damping; the upper end moves by 0.05 "
-        "sin(2π 0.2 t) m. The other program's series has steps of 50 µs. The product always has a sheave, so a small driver "
-        "steps the same kernels (tension, bending, tangent, elimination, Newmark's rule without numerical damping) with a "
-        f"free end instead. The middle swings {1e3 * np.abs(middle).max():.0f} mm."
+        "sin(2π 0.2 t) m. The other program used steps of 50 µs. The rope model always has a sheave, so a small driver "
+        "uses the same kernels (tension, bending, tangent, elimination, Newmark's rule without numerical damping) with a "
+        f"free end. Amplitude at the middle: {1e3 * np.abs(middle).max():.0f} mm."
     )
     numbers = [(f"{n}", f"{1e3 * h:g}", f"{1e3 * a:.4f}", f"{1e3 * b:.5f}") for n, h, a, b in rows]
     table = Table(

@@ -1,4 +1,4 @@
-"""What `comprope verify` does: run the checks, draw their figures, write one page."""
+"""Workflow of `comprope verify`: run the checks, draw their figures, write one page."""
 
 import importlib
 import sys
@@ -17,8 +17,8 @@ NAMES = ("reference", "offset", "periods", "convergence", "invariants")
 PAGE = "verification.html"
 TITLE = "Compensation rope: verification of the numerics"
 LEAD = (
-    "Are the rope's equations solved right? Against another program, closed forms, finer meshes and steps, and what must "
-    "hold exactly."
+    "Are the equations of the rope solved correctly? Comparison with another program and closed-form solutions, convergence in "
+    "mesh and time step, and invariants."
 )
 
 
