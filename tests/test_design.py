@@ -9,14 +9,14 @@ from scipy.integrate import solve_ivp
 from comprope.errors import InputError
 from comprope.rope.model_file import load
 from comprope_system import cli
-from comprope_system.design.building_sway import Sway, parked, worst
-from comprope_system.design.sensor_placement import choose
-from comprope_system.design.trip_envelopes import _at_heights, floors, pairs
-from comprope_system.design.workflow import _least
 from comprope_system.modal.hanging_string import side_string
 from comprope_system.presets import model_path
 from comprope_system.reduced_model.string_dynamics import rope_of
 from comprope_system.reduced_model.swing import PLACES, Case
+from comprope_system.sheave_design.building_sway import Sway, parked, worst
+from comprope_system.sheave_design.sensor_placement import choose
+from comprope_system.sheave_design.trip_envelopes import _at_heights, floors, pairs
+from comprope_system.sheave_design.workflow import _least
 
 TOWER = load(model_path("tower50"))
 CASE = Case(rope_of(TOWER), 50.0, 1.5)
@@ -84,8 +84,8 @@ def test_the_least_mass_is_the_one_from_which_on_all_keep_the_limit() -> None:
 
 
 def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("comprope_system.design.workflow.MASSES", np.array([0.4, 1.0, 2.5]))
-    monkeypatch.setattr("comprope_system.design.workflow.TOLERANCE", 0.3)
+    monkeypatch.setattr("comprope_system.sheave_design.workflow.MASSES", np.array([0.4, 1.0, 2.5]))
+    monkeypatch.setattr("comprope_system.sheave_design.workflow.TOLERANCE", 0.3)
     changes = [*("--set", "rope.element_length=0.1"), *("--set", "solver.step=0.01"), *("--set", "shaft.height=12")]
     asked = ["--limit", 4, "--floors", 3, "--sway-period", 2, "--sway-amplitude", 5, "--jobs", 1, "--out", tmp_path]
     with pytest.raises(SystemExit) as done:

@@ -45,7 +45,7 @@ def design(
 
     Also the best heights for sensors, and a map of where the periods of rope, sway and trips meet.
     """
-    from ..design.workflow import Request, run
+    from ..sheave_design.workflow import Request, run
 
     asked = (limit, floors, sway_amplitude, sway_period, sway_duration, sway_limit, sensors)
     run(Request(model, drive, *asked, tuple(changes or ()), out, json, jobs, executor))
