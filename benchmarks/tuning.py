@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import comprope_system
 from comprope_system.tuning import report
-from comprope_system.tuning.workflow import Request, run
 
 TRIPS = ("0:4", "0:8", "0:14", "0:22", "0:40", "0:100", "0:200", "200:170", "100:122", "150:60")
 
@@ -119,7 +119,10 @@ def main() -> None:
         return
     begin = time.perf_counter()
     trips = options.trips.split(",")
-    result = run(Request("building200", None, trips, options.times, 0.1, None, 0.5, 0.0, (), options.out, jobs=options.jobs))
+    asked = comprope_system.TuningOptions(trips, [float(one) for one in options.times.split(",")])
+    found = comprope_system.tune("building200", asked, checkpoint=options.out / "runs.jsonl", jobs=options.jobs)
+    found.save_files(options.out)
+    result = found.to_json()
     print("\n".join(tables(result)))
     print(f"{(time.perf_counter() - begin) / 60.0 / len(trips):.1f} minutes per trip")
 

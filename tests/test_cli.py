@@ -137,7 +137,7 @@ def test_what_fails_on_the_way_is_status_1_and_leaves_no_file(capsys, tmp_path, 
         def fail(*_, error=error):
             raise error
 
-        monkeypatch.setattr(workflow, "simulate", fail)
+        monkeypatch.setattr(workflow, "simulate_trip", fail)
         status, _, errors = run(capsys, "simulate", "tower50", *QUICK, "--out", tmp_path / "trip.csv")
         assert (status, errors) == (1, told)
         assert not list(tmp_path.iterdir())
@@ -150,7 +150,7 @@ def test_help_names_commands_and_presets(capsys):
 
 
 def test_every_preset_has_a_drive_file():
-    from comprope_system.simulation.elevator import load_drive
+    from comprope_system.presets.inputs import load_drive
 
     for name in presets.names():
         assert load_drive(presets.drive_path(name)).profile.speed > 0.0

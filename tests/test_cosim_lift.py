@@ -10,7 +10,8 @@ from comprope.rope.model_file import load, with_changes
 from comprope_system import presets
 from comprope_system.cosim import fmu_cache
 from comprope_system.cosim.fmu_participant import FmuParticipant
-from comprope_system.simulation.elevator import driven, load_drive
+from comprope_system.presets.inputs import load_drive
+from comprope_system.simulation.elevator import driven
 from comprope_system.simulation.trip_simulation import Timing, simulate
 
 # A coarse rope on a short trip: what is tested is the coupling, not the rope.

@@ -13,7 +13,7 @@ from comprope_system.modal.hanging_string import side_string
 from comprope_system.presets import model_path
 from comprope_system.reduced_model.string_dynamics import rope_of
 from comprope_system.reduced_model.swing import PLACES, Case
-from comprope_system.sheave_design.building_sway import Sway, parked, worst
+from comprope_system.sheave_design.building_sway import BuildingSway, parked, worst
 from comprope_system.sheave_design.sensor_placement import choose
 from comprope_system.sheave_design.trip_envelopes import _at_heights, floors, pairs
 from comprope_system.sheave_design.workflow import _least
@@ -22,7 +22,7 @@ TOWER = load(model_path("tower50"))
 CASE = Case(rope_of(TOWER), 50.0, 1.5)
 
 
-def finite_differences(sway: Sway, length: float, count: int = 200) -> np.ndarray:
+def finite_differences(sway: BuildingSway, length: float, count: int = 200) -> np.ndarray:
     """The farthest departure from the building at PLACES, by a string of `count` pieces integrated in time."""
     rope, ds = CASE.rope, length / count
     s, half = np.linspace(0.0, length, count + 1), (np.arange(count) + 0.5) * ds
@@ -46,7 +46,7 @@ def finite_differences(sway: Sway, length: float, count: int = 200) -> np.ndarra
 
 @pytest.mark.parametrize("period", [2.0, 4.5])
 def test_the_closed_form_of_a_swaying_rope_is_its_equation_of_motion(period: float) -> None:
-    sway = Sway(0.02, period, 12.0)
+    sway = BuildingSway(0.02, period, 12.0)
     wanted = finite_differences(sway, 41.5)
     assert parked(CASE, sway, 10.0)["counterweight"] == pytest.approx(wanted, abs=0.02 * wanted.max())
 
@@ -54,9 +54,9 @@ def test_the_closed_form_of_a_swaying_rope_is_its_equation_of_motion(period: flo
 def test_the_rope_swings_most_where_its_period_is_the_sway_s() -> None:
     cars = np.linspace(0.0, 25.0, 26)
     period = side_string(TOWER, 12.0).period()
-    swing, car = worst(CASE, Sway(0.01, period, 60.0), cars)
+    swing, car = worst(CASE, BuildingSway(0.01, period, 60.0), cars)
     assert car == 12.0
-    assert swing > 3.0 * max(float(one.max()) for one in parked(CASE, Sway(0.01, period, 60.0), 0.0).values())
+    assert swing > 3.0 * max(float(one.max()) for one in parked(CASE, BuildingSway(0.01, period, 60.0), 0.0).values())
 
 
 def test_trips_between_floors_leave_out_mirror_images() -> None:
@@ -75,12 +75,12 @@ def test_sensors_are_where_every_occasion_is_seen() -> None:
 
 def test_the_least_mass_is_the_one_from_which_on_all_keep_the_limit() -> None:
     scanned = [{"mass": mass, "swing": 1e-3 * swing} for mass, swing in ((10.0, 20.0), (20.0, 4.0), (40.0, 8.0), (80.0, 2.0))]
-    assert _least(scanned, "swing", "--limit", 4.0) == pytest.approx(40.0 * 2.0**0.5)
-    assert _least(scanned, "swing", "--limit", 30.0) == 10.0
+    assert _least(scanned, "swing", "swing_limit", 4.0) == pytest.approx(40.0 * 2.0**0.5)
+    assert _least(scanned, "swing", "swing_limit", 30.0) == 10.0
     with pytest.raises(
-        InputError, match=r"--limit 1: 2.00 mm or more is accepted; that is the swing even with a sheave of 80 kg"
+        InputError, match=r"swing_limit = 1 mm: 2.00 mm or more is accepted; that is the swing even with a sheave of 80 kg"
     ):
-        _least(scanned, "swing", "--limit", 1.0)
+        _least(scanned, "swing", "swing_limit", 1.0)
 
 
 def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:

@@ -129,7 +129,7 @@ def test_stick_is_between_the_frictions_grip_and_ill_condition() -> None:
 
 
 def test_a_car_outside_the_shaft_is_refused() -> None:
-    from comprope_system.modal.workflow import Request, run
+    from comprope_system import modes
 
-    with pytest.raises(InputError, match=r"--car 60: 0 to shaft.height = 50 m is accepted"):
-        run(Request("tower50", 60.0, 3))
+    with pytest.raises(InputError, match=r"car_position = 60 m: 0 to shaft.height = 50 m is accepted"):
+        modes("tower50", 60.0, 3)

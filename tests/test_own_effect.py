@@ -31,7 +31,8 @@ from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.diagnose import diagnose
 from comprope_system.identification.model_updating.add_effect import add
 from comprope_system.parallel.executors import threads
-from comprope_system.simulation.elevator import driven, load_drive
+from comprope_system.presets.inputs import load_drive
+from comprope_system.simulation.elevator import driven
 from comprope_system.simulation.trip_simulation import Timing, simulate
 
 from . import virtual_lift

@@ -190,7 +190,7 @@ def test_one_job_needs_no_executor() -> None:
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "localhost:8786"])
 def test_other_addresses_are_refused(address: str) -> None:
-    with pytest.raises(InputError, match="dask://HOST:PORT is accepted"), workers(address=address):
+    with pytest.raises(InputError, match="dask://HOST:PORT is accepted"), workers(executor=address):
         pass
 
 
@@ -202,7 +202,7 @@ def test_dask_by_address(tmp_path: Path) -> None:
     local = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
     with distributed.LocalCluster(protocol="tcp", **local) as cluster:
         address = cluster.scheduler_address.replace("tcp://", "dask://")
-        with workers(address=address) as executor:
+        with workers(executor=address) as executor:
             found = values(sweep(profile, trips, executor, tmp_path / "results.jsonl"))
     assert found == [profile(trip) for trip in trips]
     assert len((tmp_path / "results.jsonl").read_text().splitlines()) == 3
@@ -211,5 +211,5 @@ def test_dask_by_address(tmp_path: Path) -> None:
 def test_a_cluster_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
     monkeypatch.setattr("comprope_system.parallel.executors.WAIT", 1)
-    with pytest.raises(SimulationError, match="no Dask scheduler answers"), workers(address="dask://127.0.0.1:9"):
+    with pytest.raises(SimulationError, match="no Dask scheduler answers"), workers(executor="dask://127.0.0.1:9"):
         pass

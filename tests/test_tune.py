@@ -12,17 +12,18 @@ from comprope.drive.trajectory.reference_trajectory import first_trajectory
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.rope import CompensationRope
 from comprope_system import cli
+from comprope_system.commands.tune import read_times
 from comprope_system.modal.hanging_string import HangingString, side_string
 from comprope_system.prescribed_trip import side_shape
 from comprope_system.presets import model_path
+from comprope_system.presets.inputs import load_drive
 from comprope_system.reduced_model.calibration import calibrated
 from comprope_system.reduced_model.hoist_bounce import hoist_of
 from comprope_system.reduced_model.sampled_motion import moves
 from comprope_system.reduced_model.state_space import rope_model
 from comprope_system.reduced_model.string_dynamics import at_rest, rope_of, still_modes
 from comprope_system.reduced_model.swing import PLACES, Case, displacements, full_swing, small_swing, tail
-from comprope_system.simulation.elevator import load_drive
-from comprope_system.tuning import report, travel_time_tradeoff, workflow
+from comprope_system.tuning import report, travel_time_tradeoff
 from comprope_system.tuning.search import lower_bound, servo_gains
 from comprope_system.tuning.search.profile_families import KINDS, Way, course_of, drive_for
 from comprope_system.tuning.search.quasi_random_search import Candidate, Search, _unlike
@@ -271,4 +272,4 @@ def test_impossible_requests_are_refused_with_every_sentence(capsys, tmp_path) -
     ]
     status, _, errors = run(capsys, "tune", "tower50", "--times", "0.9,2", "--out", tmp_path)
     assert (status, errors) == (2, "--times 0.9,2: numbers from 1 to 5, with commas between, are accepted\n")
-    assert workflow.read_times("1.2,1.1") == [1.1, 1.2]
+    assert read_times("1.2,1.1") == [1.1, 1.2]

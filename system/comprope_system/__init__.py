@@ -1,1 +1,45 @@
-"""What uses the rope and the drive: co-simulation, comparison with measurements, diagnosis, reports."""
+"""Lateral vibration of elevator compensation ropes, for scripts and notebooks: simulate, modes, tune, design.
+
+    import comprope_system
+
+    result = comprope_system.simulate("tower50", changes={"sheave.mass": 90.0})
+    print(result.summary())
+    result.save_html("trip.html")
+
+Each function returns one result object with its fields, `summary()`, `to_json()`, `to_dataframe()` and `save_html(path)`; in a
+notebook it shows a short table. Functions print nothing and write nothing. Bad input raises `comprope.errors.InputError`, a
+computation that fails `comprope.errors.SimulationError`. Modules are imported when a function is used first.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .modal.workflow import modes
+    from .sheave_design.workflow import BuildingSway, DesignOptions, design
+    from .simulation.workflow import CarMotion, simulate
+    from .tuning.workflow import TuningOptions, tune
+
+__all__ = [
+    "BuildingSway", "CarMotion", "DesignOptions", "TuningOptions",
+    "design", "modes", "simulate", "tune",
+]  # fmt: skip
+_MODULES = {
+    "modal": ("modes",),
+    "sheave_design": ("BuildingSway", "DesignOptions", "design"),
+    "simulation": ("CarMotion", "simulate"),
+    "tuning": ("TuningOptions", "tune"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    for package, names in _MODULES.items():
+        if name in names:
+            value = getattr(import_module(f"{__name__}.{package}.workflow"), name)
+            globals()[name] = value
+            return value
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

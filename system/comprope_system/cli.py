@@ -12,6 +12,7 @@ from comprope import consent
 from comprope.errors import CompropeError, InputError
 
 from . import commands
+from .commands._parameters import with_options
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 # Matrices here are small: threads of the linear algebra would only wait for one another, for seconds on a busy machine.
@@ -49,7 +50,7 @@ def _register() -> None:
     found = [module.name for module in pkgutil.iter_modules(commands.__path__) if not module.name.startswith("_")]
     for name in [*(one for one in panels if one in found), *(one for one in found if one not in panels)]:
         function = getattr(importlib.import_module(f"{commands.__name__}.{name}"), name)
-        app.command(name.replace("_", "-"), rich_help_panel=panels.get(name))(function)
+        app.command(name.replace("_", "-"), rich_help_panel=panels.get(name))(with_options(function))
 
 
 _register()

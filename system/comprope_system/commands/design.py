@@ -1,9 +1,15 @@
 """`comprope design`: the least sheave, and where to put sensors."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+import comprope_system
+
+from ._parameters import EXECUTOR, JOBS
+from ._terminal import OutputFile, finish, progress_display, require_files
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, building200.")]
 DRIVE = Annotated[Path | None, typer.Option(metavar="D.toml", help="How the car moves; default the preset's own limits.")]
@@ -21,31 +27,58 @@ SET = Annotated[
 ]
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for page, pictures and result.json.")]
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result here too.")]
-JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Processes; default one for each core.")]
-EXECUTOR = Annotated[str | None, typer.Option(metavar="dask://HOST:PORT", help="Run on a Dask cluster.")]
 
 
-def design(
-    model: MODEL,
-    drive: DRIVE = None,
-    limit: LIMIT = 10.0,
-    floors: FLOORS = 11,
-    sway_amplitude: AMPLITUDE = 50.0,
-    sway_period: PERIOD = None,
-    sway_duration: DURATION = 60.0,
-    sway_limit: SWAY_LIMIT = None,
-    sensors: SENSORS = 4,
-    changes: SET = None,
-    out: OUT = Path("design"),
-    json: JSON = None,
-    jobs: JOBS = None,
-    executor: EXECUTOR = None,
-) -> None:
+STORE = "runs.jsonl"  # in that folder: results as they come
+
+
+@dataclass(frozen=True)
+class Demands:
+    """What the design must keep."""
+
+    drive: DRIVE = None
+    limit: LIMIT = 10.0
+    floors: FLOORS = 11
+    sway_amplitude: AMPLITUDE = 50.0
+    sway_period: PERIOD = None
+    sway_duration: DURATION = 60.0
+    sway_limit: SWAY_LIMIT = None
+    sensors: SENSORS = 4
+    changes: SET = None
+
+    @property
+    def options(self) -> "comprope_system.DesignOptions":
+        """The same in SI units."""
+        sway = None
+        if self.sway_period:
+            sway = comprope_system.BuildingSway(1e-3 * self.sway_amplitude, self.sway_period, self.sway_duration)
+        sway_limit = None if self.sway_limit is None else 1e-3 * self.sway_limit
+        return comprope_system.DesignOptions(1e-3 * self.limit, self.floors, sway, sway_limit, self.sensors)
+
+
+@dataclass(frozen=True)
+class Work:
+    """Where it runs, and what is written."""
+
+    out: OUT = Path("design")
+    json: JSON = None
+    jobs: JOBS = None
+    executor: EXECUTOR = None
+
+
+def design(model: MODEL, demands: Demands, work: Work) -> None:
     """Find the least sheave weight that keeps the swing under a limit on all trips between floors and in a swaying building.
 
     Also the best heights for sensors, and a map of where the periods of rope, sway and trips meet.
     """
-    from ..sheave_design.workflow import Request, run
+    from ..sheave_design.result import PAGE
 
-    asked = (limit, floors, sway_amplitude, sway_period, sway_duration, sway_limit, sensors)
-    run(Request(model, drive, *asked, tuple(changes or ()), out, json, jobs, executor))
+    require_files(OutputFile(work.out / PAGE), OutputFile(work.json))
+    with progress_display() as progress:
+        result = comprope_system.design(
+            model, demands.options, drive=demands.drive, changes=demands.changes, checkpoint=work.out / STORE,
+            executor=work.executor, jobs=work.jobs, progress=progress,
+        )  # fmt: skip
+    result.save_files(work.out)
+    finish(result, (work.json, result.save_json))
+    typer.echo(f"written {work.out / PAGE}")

@@ -1,11 +1,16 @@
 """`comprope simulate`: one trip of drive and rope."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, tower50_light, building200.")]
+import comprope_system
+
+from ._parameters import MODEL, SET
+from ._terminal import OutputFile, finish, progress_display, require_files
+
 FROM = Annotated[float | None, typer.Option("--from", metavar="M", help="Where the car starts; default the bottom landing.")]
 TO = Annotated[float | None, typer.Option("--to", metavar="M", help="Where the car goes; default the top landing.")]
 SPEED = Annotated[float | None, typer.Option(metavar="M/S", help="Rated speed.")]
@@ -14,7 +19,6 @@ JERK = Annotated[float | None, typer.Option(metavar="M/S3", help="Largest jerk."
 DRIVE = Annotated[Path | None, typer.Option(metavar="FILE.toml", help="Parameters of the drive, in tables as the FMU has them.")]
 TIME = Annotated[float | None, typer.Option(metavar="S", help="How long to simulate; default the trip and 8 s at rest.")]
 STEP = Annotated[float, typer.Option(metavar="S", help="Communication step of the co-simulation.")]
-SET = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.mass=90. Repeatable.")]
 CAR = Annotated[Path | None, typer.Option(metavar="RUN.csv", help="Move the car as measured, and draw what was measured beside.")]
 DIRECT = Annotated[bool, typer.Option("--direct", help="Step the models in this process instead of as FMUs; same numbers.")]
 ONE_WAY = Annotated[bool, typer.Option("--one-way", help="The drive does not feel the rope.")]
@@ -26,31 +30,52 @@ REPORT = Annotated[
 ]
 
 
-def simulate(
-    model: MODEL,
-    start: FROM = None,
-    end: TO = None,
-    speed: SPEED = None,
-    acceleration: ACCELERATION = None,
-    jerk: JERK = None,
-    drive: DRIVE = None,
-    time: TIME = None,
-    step: STEP = 0.01,
-    changes: SET = None,
-    car: CAR = None,
-    direct: DIRECT = False,
-    one_way: ONE_WAY = False,
-    out: OUT = None,
-    plot: PLOT = None,
-    report: REPORT = None,
-) -> None:
+@dataclass(frozen=True)
+class MotionOptions:
+    """How the car moves."""
+
+    start: FROM = None
+    end: TO = None
+    speed: SPEED = None
+    acceleration: ACCELERATION = None
+    jerk: JERK = None
+    drive: DRIVE = None
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """What is simulated, and how."""
+
+    time: TIME = None
+    step: STEP = 0.01
+    changes: SET = None
+    car: CAR = None
+    direct: DIRECT = False
+    one_way: ONE_WAY = False
+
+
+@dataclass(frozen=True)
+class Files:
+    """What is written."""
+
+    out: OUT = None
+    plot: PLOT = None
+    report: REPORT = None
+
+
+def simulate(model: MODEL, motion: MotionOptions, options: RunOptions, files: Files) -> None:
     """Co-simulate drive and rope through one trip of the car.
 
     The CSV file has a column for each sensor of the model: lateral displacement in metres, outward,
     empty where the rope's end has passed the sensor. All other columns are in SI units too.
     """
-    from ..simulation.workflow import Motion, Request, run
-
-    profile = {"speed": speed, "acceleration": acceleration, "jerk": jerk}
-    motion = Motion(start, end, {key: value for key, value in profile.items() if value is not None}, drive, car)
-    run(Request(model, motion, tuple(changes or ()), time, step, direct, one_way, out, plot, report))
+    require_files(OutputFile(files.out), OutputFile(files.plot, "picture"), OutputFile(files.report, "page"))
+    with progress_display() as progress:
+        result = comprope_system.simulate(
+            model,
+            comprope_system.CarMotion(**vars(motion), measured=options.car),
+            changes=options.changes, duration=options.time, step=options.step,
+            coupling="one-way" if options.one_way else "two-way",
+            fmu=not options.direct and files.report is None, progress=progress,
+        )  # fmt: skip
+    finish(result, (files.out, result.to_csv), (files.plot, result.save_plot), (files.report, result.save_html))

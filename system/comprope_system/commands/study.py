@@ -5,12 +5,13 @@ from typing import Annotated
 
 import typer
 
+from ._parameters import EXECUTOR, JOBS
+from ._terminal import progress_display
+
 NAMES = Annotated[
     list[str] | None, typer.Argument(metavar="[NAME]...", help="fig4, fig5, fig6, fig7, period, fig8, design; default all.")
 ]
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for page, figures and results.")]
-JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Processes; default one for each core.")]
-EXECUTOR = Annotated[str | None, typer.Option(metavar="dask://HOST:PORT", help="Run on a Dask cluster.")]
 BUILDING = Annotated[str, typer.Option(metavar="MODEL.toml", help="design: model file or preset.")]
 DISTANCE = Annotated[float, typer.Option(metavar="M", min=0.5, help="design: running distance up from the bottom landing.")]
 LIMIT = Annotated[float, typer.Option(metavar="MM", min=1e-3, help="design: largest displacement from rest that is allowed.")]
@@ -33,4 +34,5 @@ def study(
     from ..studies.study import StudyOptions
     from ..studies.workflow import Request, run
 
-    run(Request(names or (), out, jobs, executor, StudyOptions(building, distance, 1e-3 * limit)))
+    with progress_display() as progress:
+        run(Request(names or (), out, jobs, executor, StudyOptions(building, distance, 1e-3 * limit)), progress)

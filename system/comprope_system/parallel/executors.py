@@ -14,16 +14,20 @@ WAIT = 10  # s to wait for a cluster
 
 
 @contextmanager
-def workers(jobs: int | None = None, address: str | None = None, *, fresh: bool = False) -> Iterator[Executor | None]:
-    """An executor of concurrent.futures: a Dask cluster's by its address dask://HOST:PORT, else `jobs` processes.
+def workers(
+    jobs: int | None = None, executor: Executor | str | None = None, *, fresh: bool = False
+) -> Iterator[Executor | None]:
+    """An executor of concurrent.futures: the one given, a Dask cluster's by its address dask://HOST:PORT, or `jobs` processes.
 
     By default there is a process for each core; with `jobs` 1 there is no executor, and a sweep runs in this
     process, unless a `fresh` one is asked for. Raises `InputError` for an address of another kind or where Dask is not installed,
     `SimulationError` where nobody answers.
     """
-    if address is not None:
-        with _dask(address) as executor:
-            yield executor
+    if isinstance(executor, str):
+        with _dask(executor) as cluster:
+            yield cluster
+    elif executor is not None:
+        yield executor
     elif (count := jobs or os.cpu_count() or 1) == 1 and not fresh:
         yield None
     else:
@@ -58,21 +62,25 @@ def _dask(address: str) -> Iterator[Executor]:
 
 
 @contextmanager
-def threads() -> Iterator[Executor]:
-    """Threads of this process, for a few replays: their kernels run side by side."""
+def threads(executor: Executor | str | None = None) -> Iterator[Executor]:
+    """The executor given, else threads of this process, for a few replays: their kernels run side by side."""
     from comprope.rope.compiler.entry_points import compiled
 
+    if executor is not None:
+        with processes(None, executor) as given:
+            yield given
+        return
     compiled()  # once, before the threads ask for it
-    with ThreadPoolExecutor(os.cpu_count() or 1) as executor:
-        yield executor
+    with ThreadPoolExecutor(os.cpu_count() or 1) as own:
+        yield own
 
 
 @contextmanager
-def processes(jobs: int | None) -> Iterator[Executor]:
-    """Processes, for hundreds of replays; with one job, this process."""
-    with workers(jobs) as executor:
-        if executor is not None:
-            yield executor
+def processes(jobs: int | None, executor: Executor | str | None = None) -> Iterator[Executor]:
+    """The executor given, else processes, for hundreds of replays; with one job, this process."""
+    with workers(jobs, executor) as chosen:
+        if chosen is not None:
+            yield chosen
         else:
             with ThreadPoolExecutor(1) as own:
                 yield own

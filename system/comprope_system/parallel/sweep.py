@@ -10,18 +10,16 @@ import json
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, as_completed
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
 import comprope
 from comprope.atomic_files import require_writable
 from comprope.errors import CompropeError, InputError, SimulationError
+
+from .progress import Progress, no_progress
 
 SOURCE_SUFFIXES = (".py", ".toml")
 
@@ -39,22 +37,30 @@ class Outcome:
 
 
 def sweep(
-    task: Task, cases: Sequence[Case], executor: Executor | None = None, store: Path | None = None, label: str = "running"
+    task: Task,
+    cases: Sequence[Case],
+    executor: Executor | None = None,
+    store: Path | None = None,
+    label: str = "running",
+    progress: Progress = no_progress,
 ) -> list[Outcome]:
     """`task(case)` for each case, in their order; without an executor one after the other in this process.
 
     `task` is a function at the top of a module that the executor's workers can import. A case that raises a
-    `CompropeError` has failed, which is told in its outcome; failed cases are run again next time.
+    `CompropeError` has failed, which is told in its outcome; failed cases are run again next time. `progress` is called
+    with `label`, the number of results that are there, and that of all.
     """
     keys = [key_of(task, case) for case in cases]
     done = _read(store) if store else {}
     missing = {key: case for key, case in zip(keys, cases, strict=True) if key not in done}
-    with _bar(label, len(set(keys)), len(set(keys)) - len(missing)) as advance:
-        for key, outcome in _run(task, missing, executor):
-            done[key] = outcome
-            if store:
-                _append(store, key, outcome)
-            advance()
+    total = len(set(keys))
+    known = total - len(missing)
+    progress(label, known, total)
+    for count, (key, outcome) in enumerate(_run(task, missing, executor), known + 1):
+        done[key] = outcome
+        if store:
+            _append(store, key, outcome)
+        progress(label, count, total)
     return [done[key] for key in keys]
 
 
@@ -146,13 +152,3 @@ def _append(store: Path, key: str, outcome: Outcome) -> None:
     cut = store.exists() and store.stat().st_size > 0 and not store.read_bytes().endswith(b"\n")
     with store.open("a", encoding="utf-8") as file:
         file.write("\n" * cut + json.dumps({"key": key, "case": dict(outcome.case)} | told) + "\n")
-
-
-@contextmanager
-def _bar(label: str, total: int, done: int) -> Iterator[Callable[[], None]]:
-    """A bar on the terminal that counts cases; gives the function that counts one."""
-    parts = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    console = Console(file=sys.stderr)
-    with Progress(*parts, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task(label, total=total, completed=done)
-        yield lambda: progress.advance(task)

@@ -1,10 +1,12 @@
-"""Values given on the command line as KEY=VALUE."""
+"""Changed values of a model: a mapping from keys to values, or texts KEY=VALUE as the command line has them."""
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from comprope.errors import InputError
+
+Changes = Mapping[str, Any] | Sequence[str]
 
 
 def assignments(texts: Sequence[str]) -> dict[str, Any]:
@@ -19,3 +21,10 @@ def assignments(texts: Sequence[str]) -> dict[str, Any]:
         except tomllib.TOMLDecodeError:
             found[key.strip()] = value.strip()
     return found
+
+
+def by_key(changes: Changes | None) -> tuple[dict[str, Any], str]:
+    """Changed values by their keys, and what an error message calls the place that they come from."""
+    if changes is None or isinstance(changes, Mapping):
+        return dict(changes or {}), "changes"
+    return assignments(changes), "--set"

@@ -26,26 +26,26 @@ NEAR = 1e-6  # of W: nearer than that to a mode's frequency counts as beside it
 
 
 @dataclass(frozen=True)
-class Sway:
-    """Amplitude at the top landing [m], period [s] and how long it lasts [s]."""
+class BuildingSway:
+    """Harmonic sway: amplitude at the top landing [m], period [s] and duration [s]."""
 
     amplitude: float
     period: float
-    duration: float
+    duration: float = 60.0
 
 
-def parked(case: Case, sway: Sway, car: float) -> dict[str, Floats]:
+def parked(case: Case, sway: BuildingSway, car: float) -> dict[str, Floats]:
     """The farthest departure from the building (places,) [m] at PLACES of each side, car parked at `car` [m]."""
     return {side: _side(case, sway, float(case.length(side, np.array([car]))[0])) for side in SIDES}
 
 
-def worst(case: Case, sway: Sway, cars: Floats) -> tuple[float, float]:
+def worst(case: Case, sway: BuildingSway, cars: Floats) -> tuple[float, float]:
     """The farthest departure [m] over parked cars, and the height of that car [m]."""
     found = [max(float(one.max()) for one in parked(case, sway, float(car)).values()) for car in cars]
     return max(found), float(cars[int(np.argmax(found))])
 
 
-def _side(case: Case, sway: Sway, length: float) -> Floats:
+def _side(case: Case, sway: BuildingSway, length: float) -> Floats:
     W = 2.0 * np.pi / sway.period
     squares, modes, stiffness = still_modes(case.rope, length)
     squares, modes = squares[:MODES], modes[:, :MODES]

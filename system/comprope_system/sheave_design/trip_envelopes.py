@@ -18,7 +18,7 @@ from ..reduced_model.sampled_motion import moves
 from ..reduced_model.swing import DT, PLACES, Case, displacements, full_swing, small_swing, tail
 from ..tuning.search.profile_families import START
 from ..tuning.task import case_of
-from .building_sway import Sway, worst
+from .building_sway import BuildingSway, worst
 
 Floats = NDArray[np.float64]
 
@@ -59,7 +59,7 @@ def of_mass(case: Mapping[str, Any]) -> dict[str, Any]:
         swing = small_swing(small, course(profile, trip), tails[min(tails, key=lambda one: abs(one - trip[1]))])
         swings.append((max(swing.during, swing.after), swing.after, *trip))
     largest = max(swings)
-    sway = Sway(**case["sway"]) if case["sway"] else None
+    sway = BuildingSway(**case["sway"]) if case["sway"] else None
     swayed = worst(small, sway, heights) if sway else (0.0, 0.0)
     return {
         "mass": case["mass"], "trip": [largest[2], largest[3]], "swing": largest[0], "after": max(one[1] for one in swings),

@@ -3,19 +3,13 @@
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
-
-from pydantic import ValidationError
 
 from comprope.drive.cosimulation import interface as drive_interface
 from comprope.drive.parameters import Drive
-from comprope.errors import InputError
 from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.effects import RopeModel
-from comprope.rope.model_file import read_toml
 from comprope.rope.simulator.cosimulation import interface as rope_interface
-from comprope.validation_messages import problems
 
 from ..cosim import Connection, Participant, fmu_cache
 from ..cosim.fmu_participant import FmuParticipant
@@ -38,23 +32,6 @@ class Lift:
     participants: tuple[Participant, ...]
     connections: tuple[Connection, ...]
     driven: bool
-
-
-def load_drive(path: str | Path | None, changes: Mapping[str, Mapping[str, Any]] | None = None) -> Drive:
-    """The drive of a parameter file (tables as `[profile]`), with `changes` by table and key on top of it.
-
-    Raises `InputError` naming all problems, as for model files.
-    """
-    table, asked = read_toml(path) if path else {}, dict(changes or {})
-    _validated(table, str(path))
-    return _validated({key: {**table.get(key, {}), **asked.get(key, {})} for key in {*table, *asked}}, "drive")
-
-
-def _validated(table: Mapping[str, Any], source: str) -> Drive:
-    try:
-        return Drive.model_validate(table)
-    except ValidationError as error:
-        raise InputError("\n".join(f"{source}: {line}" for line in problems(error, Drive))) from None
 
 
 @contextmanager

@@ -1,17 +1,11 @@
-"""What `comprope simulate` does: read, simulate, write, sum up."""
+"""The public function `comprope_system.simulate`: one trip of drive and rope."""
 
-import sys
-from collections.abc import Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
-
-from comprope.atomic_files import require_writable
 from comprope.drive.parameters import Drive
 from comprope.drive.trajectory.reference_trajectory import first_trajectory
 from comprope.rope.effects import RopeModel
@@ -20,153 +14,123 @@ from comprope.rope.simulator.cosimulation import RopeSimulator
 from comprope.rope.simulator.rope import CompensationRope
 
 from ..cosim.in_process_participant import DirectParticipant
-from ..presets import drive_path, model_path
-from ..presets.overrides import assignments
+from ..cosim.master import Coupling
+from ..parallel.progress import Progress, no_progress
+from ..presets import model_path
+from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
+from ..presets.overrides import Changes, by_key
 from .animation.frames import Camera
-from .elevator import Lift, driven, load_drive, prescribed
-from .measured_run import Run, read_run
-from .trip_simulation import Progress as Report
-from .trip_simulation import Simulated, Timing, simulate, summary
+from .elevator import Lift, driven, prescribed
+from .measured_run import read_run
+from .result import SimulationResult
+from .trip_simulation import Timing
+from .trip_simulation import simulate as simulate_trip
 
-SETTLE = 8.0  # s simulated after the trip, while the rope swings freely
+SETTLE = 8.0  # s simulated after the trip, while the rope vibrates freely
 
 
 @dataclass(frozen=True)
-class Motion:
-    """How the car moves: between two heights [m] by a drive with some limits changed, or as measured in a CSV file."""
+class CarMotion:
+    """How the car moves: by a drive between two heights, or as measured.
+
+    `start` and `end` are heights above the bottom landing [m], by default the two terminal landings; `speed` [m/s],
+    `acceleration` [m/s2] and `jerk` [m/s3] replace the drive's limits. `drive` is a parameter file or a `Drive`, by default the
+    preset's own. `measured` is a CSV file with `time` and `car_position`, which the car then follows instead.
+    """
 
     start: float | None = None
     end: float | None = None
-    profile: Mapping[str, float] | None = None
-    drive: Path | None = None
-    car: Path | None = None
+    speed: float | None = None
+    acceleration: float | None = None
+    jerk: float | None = None
+    drive: DriveInput | None = None
+    measured: str | Path | None = None
 
 
-@dataclass(frozen=True)
-class Request:
-    """What a user asks for; `changes` are texts KEY=VALUE, times are in s."""
+def simulate(
+    model: ModelInput,
+    motion: CarMotion | None = None,
+    *,
+    changes: Changes | None = None,
+    duration: float | None = None,
+    step: float = 0.01,
+    coupling: Coupling = "two-way",
+    fmu: bool = False,
+    progress: Progress = no_progress,
+) -> SimulationResult:
+    """Co-simulate drive and rope through one trip of the car.
 
-    model: str
-    motion: Motion
-    changes: tuple[str, ...] = ()
-    duration: float | None = None
-    step: float = 0.01
-    direct: bool = False
-    one_way: bool = False
-    out: Path | None = None
-    plot: Path | None = None
-    report: Path | None = None
-
-
-def run(request: Request) -> Simulated:
-    """Simulate what is asked for, write its files and print a summary; raises `InputError` for bad input."""
-    _require_files(request)
-    model, drive_changes = _model(request)
-    names = [sensor.name for sensor in model.sensors]
-    measured = None
-    if request.motion.car:
-        measured = read_run(request.motion.car, model.shaft.height, names)
-        model = with_changes(model, measured.changes | assignments(request.changes), "--set")
-    lift, duration = _lift(request, model, drive_changes, measured)
-    duration = duration if request.duration is None else request.duration
-    timing = Timing(duration, request.step, "one-way" if request.one_way else "two-way")
-    with lift as ready, _progress_bar() as bar:
-        camera = Camera(partial(_rope, ready), timing.step) if request.report else None
-        simulated = simulate(ready, names, timing, _both(bar, camera))
-    _write(request, simulated, measured)
-    if request.report and camera:
-        from .animation.page import save_trip_page
-
-        save_trip_page(request.report, request.model, model, simulated, camera, measured)
-    _print(request, simulated)
-    return simulated
-
-
-def _both(bar: Report, camera: Camera | None) -> Report:
-    """Tell the bar of each step, and let the camera take it."""
-
-    def step(count: int, total: int) -> None:
-        bar(count, total)
-        if camera:
-            camera(count, total)
-
-    return step
+    `model` is a model file, a preset's name or a `RopeModel`; `changes` are values by key, `{"sheave.mass": 90.0}`, also of the
+    drive's tables; `duration` [s] is by default that of the trip and 8 s at rest; `step` is the communication step [s];
+    `coupling` "one-way" keeps the rope's forces from the drive. With `fmu` both models are stepped as FMUs, with the same
+    numbers. Raises `InputError` for bad input, `SimulationError` where a step does not converge.
+    """
+    motion = motion or CarMotion()
+    rope_model, drive_changes = _model(model, changes)
+    names, measured = [sensor.name for sensor in rope_model.sensors], None
+    if motion.measured:
+        measured = read_run(Path(motion.measured), rope_model.shaft.height, names)
+        own, source = by_key(changes)
+        rope_model = with_changes(rope_model, measured.changes | own, source)
+    elevator: AbstractContextManager[Lift]
+    if measured:
+        elevator, natural = prescribed(rope_model, measured.trips, not fmu), measured.end
+    else:
+        elevator, natural = _driven(model, motion, rope_model, drive_changes, fmu)
+    timing = Timing(natural if duration is None else duration, step, coupling)
+    with elevator as ready:
+        camera = None if fmu else Camera(partial(_rope, ready), timing.step)
+        simulated = simulate_trip(ready, names, timing, partial(_advance, progress, camera))
+    recording = camera.recording if camera else None
+    return SimulationResult(
+        simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording
+    )
 
 
-def _rope(lift: Lift) -> CompensationRope:
-    """The rope of a lift that is stepped in this process."""
-    rope = lift.participants[-1]
+def _advance(progress: Progress, camera: Camera | None, count: int, total: int) -> None:
+    """Report a communication step, and record the rope's shape where it is there."""
+    progress("simulating", count, total)
+    if camera:
+        camera(count, total)
+
+
+def _rope(elevator: Lift) -> CompensationRope:
+    """The rope of an elevator that is stepped in this process."""
+    rope = elevator.participants[-1]
     if not isinstance(rope, DirectParticipant) or not isinstance(rope.simulator, RopeSimulator):
         raise TypeError("an FMU does not show the rope's shape")
     return rope.simulator.rope
 
 
-def _require_files(request: Request) -> None:
-    """Refuse files that could not be written, before the long computation."""
-    for path, kind in ((request.out, None), (request.plot, "picture"), (request.report, "page")):
-        if path:
-            require_writable(path, kind)
-
-
-def _model(request: Request) -> tuple[RopeModel, dict[str, dict[str, Any]]]:
+def _model(model: ModelInput, changes: Changes | None) -> tuple[RopeModel, dict[str, dict[str, Any]]]:
     """The model with its changes, and the changes that concern the drive, by table and key."""
     own, drive = {}, dict[str, dict[str, Any]]()
-    for key, value in assignments(request.changes).items():
+    wanted, source = by_key(changes)
+    for key, value in wanted.items():
         table, _, name = key.partition(".")
         if table in Drive.model_fields and table not in RopeModel.model_fields:
             drive.setdefault(table, {})[name] = value
         else:
             own[key] = value
-    return with_changes(load(model_path(request.model)), own, "--set"), drive
+    loaded = model if isinstance(model, RopeModel) else load(model_path(model))
+    return with_changes(loaded, own, source), drive
 
 
-def _lift(
-    request: Request, model: RopeModel, drive_changes: dict[str, dict[str, Any]], measured: Run | None
+def _driven(
+    model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]], fmu: bool
 ) -> tuple[AbstractContextManager[Lift], float]:
-    """The lift to simulate and how long a trip takes it [s]; an FMU shows no shapes, so a report needs the models themselves."""
-    direct = request.direct or request.report is not None
-    if measured:
-        return prescribed(model, measured.trips, direct), measured.end
-    drive = _drive(request, model, drive_changes)
-    return driven(model, drive, direct), first_trajectory(drive).end_time + SETTLE
-
-
-def _drive(request: Request, model: RopeModel, changes: dict[str, dict[str, Any]]) -> Drive:
-    """The drive of the named file or the preset's own, in the model's shaft, on the trip asked for."""
-    motion, height = request.motion, model.shaft.height
+    """The elevator with its drive in the model's shaft on the trip asked for, and how long to simulate it [s]."""
+    height = rope_model.shaft.height
+    limits = {"speed": motion.speed, "acceleration": motion.acceleration, "jerk": motion.jerk}
     trip = {
         "start_position": 0.0 if motion.start is None else motion.start,
         "destination": height if motion.end is None else motion.end,
     }
-    asked = {"shaft": {"height": height, "gravity": model.shaft.gravity}, "profile": dict(motion.profile or {}), "trip": trip}
+    asked: dict[str, dict[str, Any]] = {
+        "shaft": {"height": height, "gravity": rope_model.shaft.gravity},
+        "profile": {name: value for name, value in limits.items() if value is not None},
+        "trip": trip,
+    }
     merged = {table: asked.get(table, {}) | changes.get(table, {}) for table in {*asked, *changes}}
-    return load_drive(motion.drive or drive_path(request.model), merged)
-
-
-@contextmanager
-def _progress_bar() -> Iterator[Report]:
-    """A bar on the terminal; nothing where standard error is none."""
-    console = Console(file=sys.stderr)
-    parts = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    # An FMU's messages on standard error are caught while it is called, so the bar leaves the streams alone.
-    bar = Progress(*parts, console=console, transient=True, redirect_stdout=False, redirect_stderr=False)
-    bar.disable = not console.is_terminal
-    with bar:
-        task = bar.add_task("settling the rope", total=None)
-        yield lambda count, total: bar.update(task, completed=count, total=total, description="simulating")
-
-
-def _write(request: Request, simulated: Simulated, measured: Run | None) -> None:
-    if request.out:
-        simulated.to_csv(request.out)
-    if request.plot:
-        from .plot import save_trip
-
-        save_trip(request.plot, simulated, measured)
-
-
-def _print(request: Request, simulated: Simulated) -> None:
-    lines = summary(simulated)
-    lines += [("written", str(path)) for path in (request.out, request.plot, request.report) if path]
-    width = max(len(name) for name, _ in lines)
-    sys.stdout.write("".join(f"{name:<{width}}  {text}\n" for name, text in lines))
+    drive = read_drive(motion.drive, model, merged)
+    return driven(rope_model, drive, not fmu), first_trajectory(drive).end_time + SETTLE

@@ -11,6 +11,7 @@ from comprope.errors import InputError
 from comprope.validation_messages import suggestion
 
 from ..parallel.executors import workers
+from ..parallel.progress import Progress, no_progress
 from ..parallel.sweep import sweep, values
 from ..report.finding import Fact, Finding, fact_table
 from ..report.page import Section, save_page, save_pictures
@@ -37,14 +38,14 @@ class Request:
     options: StudyOptions = StudyOptions()  # noqa: RUF009 -- frozen
 
 
-def run(request: Request) -> dict[str, Finding]:
+def run(request: Request, progress: Progress = no_progress) -> dict[str, Finding]:
     """Run the studies and write figures and page; an interrupted run in the same folder is resumed."""
     studies = [find(name) for name in request.names or NAMES]
     require_writable(request.out / PAGE)
     findings = {}
     with workers(request.jobs, request.executor) as executor:
         for study in studies:
-            outcomes = sweep(study.task, study.cases(request.options), executor, request.out / STORE, study.name)
+            outcomes = sweep(study.task, study.cases(request.options), executor, request.out / STORE, study.name, progress)
             findings[study.name] = study.evaluate(request.options, values(outcomes))
     sections = [study.section(findings[study.name]) for study in studies]
     facts = [fact for finding in findings.values() for fact in finding.facts]

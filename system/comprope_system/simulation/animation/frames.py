@@ -34,6 +34,14 @@ class Frame:
     angle: float
 
 
+@dataclass(frozen=True)
+class Recording:
+    """The frames of a trip, one every `interval` [s]."""
+
+    frames: tuple[Frame, ...]
+    interval: float
+
+
 def look(rope: CompensationRope) -> Frame:
     """The frame of a rope as it stands. Points of a side that folds back below a height are NaN."""
     n, q, pit = rope.n, rope.state.q, rope.model.shaft.pit
@@ -79,6 +87,11 @@ class Camera:
     def interval(self) -> float:
         """Time between frames [s]."""
         return self._stride * self._step
+
+    @property
+    def recording(self) -> Recording:
+        """The frames so far."""
+        return Recording(tuple(self.frames), self.interval)
 
     def __call__(self, count: int, total: int) -> None:
         """After `count` of `total` steps."""

@@ -11,7 +11,7 @@ from ..measured_run import Run
 from ..plot import draw_trip
 from ..trip_simulation import Simulated, summary
 from .encoding import film
-from .frames import Camera
+from .frames import Recording
 from .traces import traces
 
 _LEAD = "One trip of {distance:.1f} m in a shaft of {height:g} m with a sheave mass of {mass:g} kg per rope."
@@ -24,15 +24,17 @@ _CAPTION = (
 )
 
 
-def save_trip_page(path: Path, name: str, model: Base, simulated: Simulated, camera: Camera, measured: Run | None = None) -> None:
+def save_trip_page(
+    path: Path, name: str, model: Base, trip: Simulated, recording: Recording, measured: Run | None = None
+) -> None:
     """Write the page of a simulated trip of the model called `name`, completely or not at all."""
-    car = simulated.table["car_position"]
+    car = trip.table["car_position"]
     lead = _LEAD.format(distance=float(car.max() - car.min()), height=model.shaft.height, mass=model.sheave.mass)
-    moving = Animation("trip", film(model, camera.frames, camera.interval, traces(simulated, measured)), _CAPTION)
+    moving = Animation("trip", film(model, recording.frames, recording.interval, traces(trip, measured)), _CAPTION)
     sections = [
         Section("motion", "Animation", [moving]),
-        Section("figures", "Key figures", [Table(("", ""), summary(simulated))]),
-        Section("curves", "Plots", [Picture("curves", draw_trip(simulated, measured))]),
+        Section("figures", "Key figures", [Table(("", ""), summary(trip))]),
+        Section("curves", "Plots", [Picture("curves", draw_trip(trip, measured))]),
         Section("model", "Model parameters", [_model(model)]),
     ]
     save_page(path, f"Compensation rope: {name}", lead, sections)

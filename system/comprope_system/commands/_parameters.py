@@ -1,0 +1,47 @@
+"""Arguments and options that several commands have, and commands whose options are grouped in dataclasses."""
+
+import inspect
+from collections.abc import Callable
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Annotated, Any, get_type_hints
+
+import typer
+
+MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, tower50_light, building200.")]
+SET = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.mass=90. Repeatable.")]
+CAMPAIGN = Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml, or that file.")]
+JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result.")]
+REPORT = Annotated[Path | None, typer.Option(metavar="F.html", help="Write a page with pictures.")]
+NEW_MODEL = Annotated[Path | None, typer.Option(metavar="MODEL.toml", help="Write the new model.")]
+JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Processes; default one for each core.")]
+EXECUTOR = Annotated[str | None, typer.Option(metavar="dask://HOST:PORT", help="Run on a Dask cluster.")]
+
+
+def with_options(command: Callable[..., None]) -> Callable[..., None]:
+    """The command as typer reads it: a parameter whose type is a dataclass is replaced by one for each of its fields."""
+    groups: dict[str, Any] = {name: kind for name, kind in get_type_hints(command).items() if is_dataclass(kind)}
+    if not groups:
+        return command
+
+    def called(**values: Any) -> None:
+        made = {name: kind(**{one.name: values.pop(one.name) for one in fields(kind)}) for name, kind in groups.items()}
+        command(**values, **made)
+
+    parameters = [one for parameter in inspect.signature(command).parameters.values() for one in _separate(parameter)]
+    called.__name__, called.__doc__ = command.__name__, command.__doc__
+    called.__annotations__ = {one.name: one.annotation for one in parameters}
+    called.__dict__["__signature__"] = inspect.Signature(parameters)
+    return called
+
+
+def _separate(parameter: inspect.Parameter) -> list[inspect.Parameter]:
+    """The parameter itself, or one for each field of the dataclass that is its type."""
+    kind = parameter.annotation
+    if not is_dataclass(kind):
+        return [parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)]
+    hints = get_type_hints(kind, include_extras=True)
+    return [
+        inspect.Parameter(one.name, inspect.Parameter.KEYWORD_ONLY, default=one.default, annotation=hints[one.name])
+        for one in fields(kind)
+    ]

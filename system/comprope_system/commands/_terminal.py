@@ -1,0 +1,54 @@
+"""What commands show on the terminal and write to files."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from comprope.atomic_files import require_writable
+
+if TYPE_CHECKING:
+    from ..parallel.progress import Progress as Report
+    from ..report.result import Result
+
+
+@contextmanager
+def progress_display() -> "Iterator[Report]":
+    """On a terminal, what is being computed, how much of it is done, and for how long; elsewhere nothing."""
+    console = Console(file=sys.stderr)
+    parts = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    # An FMU's messages on standard error are captured while it is called, so the display leaves the streams alone.
+    display = Progress(*parts, console=console, transient=True, redirect_stdout=False, redirect_stderr=False)
+    display.disable = not console.is_terminal
+    with display:
+        task = display.add_task("starting", total=None)
+        yield lambda text, done, total: display.update(task, description=text, completed=done, total=total or None)
+
+
+@dataclass(frozen=True)
+class OutputFile:
+    """A file that a command is asked to write, None if it is not, and its kind, which demands an ending of its name."""
+
+    path: Path | None
+    kind: str | None = None
+
+
+def require_files(*files: OutputFile) -> None:
+    """Refuse files that could not be written, before the long computation."""
+    for one in files:
+        if one.path:
+            require_writable(one.path, one.kind)
+
+
+def finish(result: "Result", *files: tuple[Path | None, Callable[[Path], None]]) -> None:
+    """Print the result's summary, then write each file asked for, whole or not at all, and name it."""
+    sys.stdout.write(f"{result.summary()}\n")
+    for path, save in files:
+        if path:
+            save(path)
+            sys.stdout.write(f"written {path}\n")

@@ -1,0 +1,70 @@
+"""The result of `comprope_system.simulate`: one trip as a table, with text, picture and page."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from comprope.errors import InputError
+from comprope.rope.effects import RopeModel
+
+from ..report.json_output import plain
+from ..report.result import Result
+from .animation.frames import Recording
+from .measured_run import Run
+from .trip_simulation import Simulated, summary
+
+
+@dataclass(frozen=True, repr=False)
+class SimulationResult(Result, Simulated):
+    """One simulated trip.
+
+    `table` has a column `time` [s] and those that `columns` describes with unit and meaning; cells are NaN where a rope end has
+    passed the sensor. `sensors` are the names of the model's sensors, `model` is the model with its changes, `measured` the run
+    that the car followed. `recording` holds the rope's shapes, which FMUs do not show.
+    """
+
+    model: RopeModel
+    model_name: str
+    measured: Run | None
+    recording: Recording | None
+
+    def headline(self) -> str:
+        """The way of the car, and how long it was simulated."""
+        figures = dict(summary(self))
+        return f"{self.model_name}: the car from {figures['car']}, {figures['duration']} simulated"
+
+    def summary(self) -> str:
+        """Key figures of the trip, one a line."""
+        lines = summary(self)
+        width = max(len(name) for name, _ in lines)
+        return "\n".join(f"{name:<{width}}  {text}" for name, text in lines)
+
+    def to_json(self) -> dict[str, Any]:
+        """Key figures, the columns with their units, and the table as lists, in SI units."""
+        return {
+            "model": self.model_name,
+            "sensors": list(self.sensors),
+            "key_figures": dict(summary(self)),
+            "units": {"time": "s"} | {one.name: one.unit for one in self.columns},
+            "table": plain({name: self.table[name].to_numpy() for name in self.table}),
+        }
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """The table (n, columns): one row for each communication step."""
+        return self.table
+
+    def save_html(self, path: str | Path) -> None:
+        """Write a page that plays the trip; raises `InputError` if the rope was an FMU, which does not show its shape."""
+        from .animation.page import save_trip_page
+
+        if self.recording is None:
+            raise InputError("fmu = True: a page that plays the trip needs the rope's shape; fmu = False is accepted")
+        save_trip_page(Path(path), self.model_name, self.model, self, self.recording, self.measured)
+
+    def save_plot(self, path: str | Path) -> None:
+        """Write the picture of the trip as .png, .pdf or .svg, whole or not at all."""
+        from .plot import save_trip
+
+        save_trip(Path(path), self, self.measured)
