@@ -141,7 +141,7 @@ def test_the_engine_follows_a_shaped_course_and_restarts_in_it() -> None:
         ({"shaper.impulses": 2.5}, "shaper: impulses = 2.5: accepted is 1, 2 or 3"),
         ({"profile.smoothing": 0.001}, "profile: smoothing = 0.001 s: accepted is 0 (none) or 0.01 to 20 s"),
         ({"curve.a1": 0.5}, "the sum of a1 to a19 is 0.5: accepted is 0, so that the car stops"),
-        ({"curve.a1": -0.5, "curve.a2": 0.5}, "no sum below 0 is accepted, so that the car never goes back"),
+        ({"curve.a1": -0.5, "curve.a2": 0.5}, "no sum below 0 is accepted, so that the car never reverses"),
     ],
 )
 def test_impossible_shapes_are_refused_with_a_sentence(parameters: dict[str, float], text: str) -> None:

@@ -1,4 +1,4 @@
-"""Files of a user's: read as text, and written whole or not at all, into a temporary neighbour renamed when complete."""
+"""Reading text files, and writing files atomically: into a temporary file in the same folder that is renamed when complete."""
 
 import os
 import uuid
@@ -13,7 +13,7 @@ ENDINGS = {"page": (".html", ".htm"), "picture": (".png", ".pdf", ".svg")}
 
 @contextmanager
 def atomic_write(path: str | Path) -> Iterator[Path]:
-    """A temporary path to write to, which becomes `path` when the block ends, and vanishes when it fails.
+    """A temporary path to write to, which is renamed to `path` at the end of the block, or deleted on failure.
 
     Missing folders are made. Raises `InputError` if the file cannot be written.
     """
@@ -40,9 +40,9 @@ def read_text_file(path: str | Path) -> str:
 
 
 def require_writable(path: str | Path, kind: str | None = None) -> None:
-    """Make the folder of a file to come; raises `InputError` if the file could not be written there.
+    """Create the folder of an output file; raises `InputError` if the file could not be written there.
 
-    A file of a `kind` has an ending that tells it. Asked before a long computation, so that it is not lost for a mistyped path.
+    A file of a `kind` must have a matching extension. Called before long computations, so that no result is lost.
     """
     target = Path(path)
     if kind and target.suffix.lower() not in ENDINGS[kind]:

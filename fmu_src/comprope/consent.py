@@ -1,4 +1,4 @@
-"""Consent to run code that a user's files name: given for a command by an option, or by an environment variable."""
+"""Consent of the user to execute Python files named in a model file: by an option or an environment variable."""
 
 import os
 from collections.abc import Iterator
@@ -8,13 +8,13 @@ VARIABLE = "COMPROPE_ALLOW_CODE"
 
 
 def given() -> bool:
-    """Whether there is consent."""
+    """Whether consent has been given."""
     return os.environ.get(VARIABLE) == "1"
 
 
 @contextmanager
 def giving(allow: bool = True) -> Iterator[None]:
-    """Consent while the context lasts, if `allow`; in the environment, so that processes started meanwhile have it too."""
+    """Consent within the context if `allow`; set in the environment, so that child processes inherit it."""
     before = os.environ.get(VARIABLE, "")
     os.environ[VARIABLE] = "1" if allow else before
     try:

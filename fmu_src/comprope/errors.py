@@ -1,13 +1,13 @@
-"""What can go wrong, in words a user can act on."""
+"""Exceptions with messages for the user."""
 
 
 class CompropeError(Exception):
-    """Base of every error this package raises on purpose."""
+    """Base class of all exceptions that this package raises deliberately."""
 
 
 class InputError(CompropeError):
-    """A user's value, file or option is not acceptable; the text names quantity, value and what is accepted."""
+    """An invalid value, file or option; the message names the quantity, its value and what is accepted."""
 
 
 class SimulationError(CompropeError):
-    """A step could not be saved by halving it; the text says what, where and when."""
+    """A simulation failed; the message states the reason, the place and the time."""

@@ -1,4 +1,4 @@
-"""Declare a component once: unit, range, default and one line of help for each of its quantities.
+"""Declaration of components: unit, range, default and description of each of their quantities.
 
 Model files, FMU variables, help texts, tables in the documentation and the bounds of fits are all
 read from these declarations.
@@ -13,7 +13,7 @@ from pydantic_core import PydanticUndefined
 
 
 class Component(BaseModel):
-    """A frozen set of quantities; an unknown key, a missing one or an impossible value is refused."""
+    """A frozen set of quantities; unknown keys, missing keys and impossible values are rejected."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
@@ -22,7 +22,7 @@ class Component(BaseModel):
 class Quantity:
     """One declared number of a component.
 
-    `off` is the value that takes the component out of the model; None where the default does.
+    `off` is the neutral value, with which the component has no influence; None if that is the default.
     """
 
     name: str

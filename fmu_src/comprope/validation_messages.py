@@ -1,4 +1,4 @@
-"""Say what is wrong with a user's table in one line per problem, in the words of the declarations."""
+"""Error messages for invalid tables: one line per problem, with key, value and what is accepted."""
 
 import types
 from collections.abc import Sequence
@@ -13,12 +13,12 @@ Location = Sequence[str | int]
 
 
 def problems(error: ValidationError, component: type[BaseModel]) -> list[str]:
-    """One line `<key> = <value>: <what is accepted>` for each problem of a table refused by `component`."""
+    """One line `<key> = <value>: <what is accepted>` for each problem found by the validation of `component`."""
     return [_sentence(component, dict(item)) for item in error.errors(include_url=False)]
 
 
 def key_text(location: Location) -> str:
-    """The location of a value as a dotted key; places in lists count from 1, as in `sensors[1].height`."""
+    """The location of a value as a dotted key; list indices start at 1, as in `sensors[1].height`."""
     text = ""
     for part in location:
         text += f"[{part + 1}]" if isinstance(part, int) else f".{part}"
@@ -43,7 +43,7 @@ def accepted(owner: type[BaseModel], name: str) -> str:
 
 
 def suggestion(unknown: str, known: Sequence[str]) -> str:
-    """`did you mean "x"?` where a known word resembles the unknown one; else the known words."""
+    """`did you mean "x"?` if a known name is similar to the unknown one; otherwise the known names."""
     close = get_close_matches(unknown, known, n=1, cutoff=0.6)
     return f'did you mean "{close[0]}"?' if close else f"accepted are {', '.join(known) or 'none'}"
 
@@ -67,7 +67,7 @@ def _item_accepted(component: type[BaseModel], item: dict[str, Any]) -> str:
 
 
 def _shown(value: Any) -> str:
-    """` = value` as it would stand in the file; nothing for a table, which is long."""
+    """` = value` in TOML notation; empty for a table, which is long."""
     if isinstance(value, dict):
         return ""
     text = str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
@@ -84,7 +84,7 @@ def _component_at(component: type[BaseModel], location: Location) -> type[BaseMo
 
 
 def _component_in(annotation: Any) -> type[BaseModel] | None:
-    """The component an annotation holds: itself, or the one within `X | None` or `tuple[X, ...]`."""
+    """The component in a type annotation: itself, or the one within `X | None` or `tuple[X, ...]`."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
     if get_origin(annotation) in (Union, types.UnionType, tuple, list):

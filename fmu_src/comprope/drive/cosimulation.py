@@ -1,8 +1,8 @@
-"""The drive as a model for co-simulation: its variables, and how an engine is made from their values.
+"""The drive as a co-simulation model: its variables, and the simulator built from their values.
 
-Rules for calls: the trip that the parameters `trip.*` describe is made first. After that a change of the input
-`destination` is a call: it is answered when the car's reference stands still, and only the latest one
-counts if it changes while a trip is on. What the input holds at the start is no call.
+Car calls: the trip of the parameters `trip.*` comes first. After that a change of the input `destination` is a call. It is
+served when the reference is at rest; if the input changes several times during a trip, only the last value counts. The
+initial value of the input is not a call.
 """
 
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ from .stability_margins import unstable_positions
 from .trajectory.reference_trajectory import first_trajectory
 
 NAME = "ElevatorDrive"
-# What makes the interface inside an FMU.
+# Source of the entry module in the FMU, which creates the interface.
 ENTRY = """\
 from .drive.cosimulation import interface
 
@@ -30,7 +30,7 @@ INTERFACE = interface()
 """
 _DESCRIPTION = "Elevator drive: jerk-limited trips, position and speed servo, car and counterweight on elastic hoist ropes"
 _PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in ("elevator", "trip"))
-_REST_AFTER = 5.0  # s that a run goes on after the first trip, unless told otherwise
+_REST_AFTER = 5.0  # s after the first trip, for the default stop time
 _REAL_OUTPUTS = (  # name, unit, nominal, help
     ("car_position", "m", 10.0, "car height above the bottom landing"),
     ("car_velocity", "m/s", 1.0, "car velocity, up positive"),
@@ -38,20 +38,20 @@ _REAL_OUTPUTS = (  # name, unit, nominal, help
     ("counterweight_position", "m", 10.0, "counterweight height above the bottom landing"),
     ("counterweight_velocity", "m/s", 1.0, "counterweight velocity, up positive"),
     ("counterweight_acceleration", "m/s2", 1.0, "counterweight acceleration, up positive"),
-    ("encoder_position", "m", 10.0, "car height by the encoder on the traction sheave, blind to the hoist ropes' stretch"),
-    ("motor_torque", "N.m", 1000.0, "torque of the motor, positive when it lifts the car"),
-    ("reference_position", "m", 10.0, "car height that the trip asks for"),
-    ("reference_velocity", "m/s", 1.0, "car velocity that the trip asks for"),
-    ("reference_acceleration", "m/s2", 1.0, "car acceleration that the trip asks for"),
+    ("encoder_position", "m", 10.0, "car height from the encoder on the traction sheave, without rope elongation"),
+    ("motor_torque", "N.m", 1000.0, "torque of the motor, positive when it moves the car up"),
+    ("reference_position", "m", 10.0, "reference of the car height"),
+    ("reference_velocity", "m/s", 1.0, "reference of the car velocity, up positive"),
+    ("reference_acceleration", "m/s2", 1.0, "reference of the car acceleration, up positive"),
 )
 _FLAGS = (
-    ("moving", "a trip is on: the reference moves"),
-    ("trip_finished", "the latest trip has ended: the reference stands at its destination"),
+    ("moving", "a trip is in progress: the reference is moving"),
+    ("trip_finished", "the last trip is finished: the reference is at rest at its destination"),
 )
 
 
 def interface(drive: Drive | None = None) -> ModelInterface:
-    """The drive's variables and maker; parameters start at the values of `drive`, by default the declared ones."""
+    """The drive as a model interface; parameters have the start values of `drive`, by default the declared ones."""
     chosen = drive or Drive()
     stop_time = ceil(first_trajectory(chosen).end_time + _REST_AFTER)
     variables = _parameters(chosen) + _inputs(chosen) + _outputs()
@@ -59,10 +59,10 @@ def interface(drive: Drive | None = None) -> ModelInterface:
 
 
 def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> DriveSimulator:
-    """A drive at rest at `start_time` [s] from values by name, as declared by `interface`.
+    """Simulator of a drive at rest at `start_time` [s], from values by name as declared by `interface`.
 
-    Raises `InputError` with one sentence for each problem: unknown, impossible or contradicting values, a torque limit
-    that cannot hold the car, gains that make the servo unstable.
+    Raises `InputError` with one sentence for each problem: unknown, impossible or inconsistent values, a torque limit too
+    low to hold the car, unstable servo gains.
     """
     drive = drive_of(parameters)
     found = input_problems(drive, inputs) + _start_problems(drive, start_time)
@@ -73,7 +73,7 @@ def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time:
 
 
 def drive_of(parameters: Mapping[str, Any]) -> Drive:
-    """The drive that parameters such as `profile.speed` describe; raises `InputError` with all problems."""
+    """The drive from parameters such as `profile.speed`; raises `InputError` with all problems."""
     tables: dict[str, Any] = {}
     for name, value in parameters.items():
         component, _, quantity = name.partition(".")
@@ -96,7 +96,7 @@ def _torque_problems(drive: Drive, inputs: Mapping[str, Any]) -> list[str]:
     needed, limit = abs(force) * drive.plant.sheave_radius, drive.servo.torque_limit
     if limit > needed:
         return []
-    return [f"servo.torque_limit = {limit} N.m: more than the {needed:.6g} N.m that hold the car at its start is accepted"]
+    return [f"servo.torque_limit = {limit} N.m: more than the {needed:.6g} N.m that hold the car initially is accepted"]
 
 
 def _gain_problems(drive: Drive) -> list[str]:
@@ -118,12 +118,12 @@ def _parameters(drive: Drive) -> tuple[Variable, ...]:
 
 
 def _inputs(drive: Drive) -> tuple[Variable, ...]:
-    pull = "tension of one compensation rope at its {} end, pulling down; its value at the start is part of the rest"
+    pull = "tension of one compensation rope at its {} end, pulling down; its initial value belongs to the equilibrium"
     tensions = (
         Variable(f"{end}_end_tension", "real", "input", pull.format(end), "N", 0.0, -1e6, 1e6, 1000.0)
         for end in ("car", "counterweight")
     )
-    call = "a change of it calls the car to this height once it stands; its value at the start is no call"
+    call = "height to which a change of this input calls the car when it is at rest; the initial value is not a call"
     return (Variable("destination", "real", "input", call, "m", drive.trip.destination, 0.0, 1000.0, 10.0), *tensions)
 
 

@@ -1,8 +1,8 @@
-"""The hoist: traction sheave, car and counterweight on elastic ropes, linear about any car position.
+"""Dynamics of the hoist: traction sheave, car and counterweight on elastic ropes, linearised about any car position.
 
-All quantities are deviations from the rest at which the simulation starts. States, inputs and their units:
+All quantities are deviations from the initial equilibrium. States, inputs and their units:
 
-    s, x_c, x_w   [m]    way of the traction sheave's rim (car up), of the car (up), of the counterweight (up)
+    s, x_c, x_w   [m]    displacement of the traction sheave's rim (car up), of the car (up), of the counterweight (up)
     v_s, v_c, v_w [m/s]  their velocities
     T_c, T_w      [N]    elastic tension of the hoist ropes on the car's and on the counterweight's side
     f             [N]    force of the motor at the rim, torque / radius
@@ -17,11 +17,10 @@ half of each side's rope moving with its end and half with the sheave, N the ten
     (m_c + mu L_c/2) v_c' =  N_c + mu g s/2 - F_c
     (m_w + mu L_w/2) v_w' =  N_w - mu g s/2 - F_w
 
-Tensions, not elongations, are the states: rope that runs on or off the sheave carries the strain it has there, as
-without creep, which exceeds its side's mean by mu g L/(2 EA) (the term mu g v_s/2: a slow trip under constant loads
-moves the car exactly as far as the rim); and nothing jumps when the stiffness is scheduled with the position. Not in
-the model: creep, slip, slack, the ropes' own waves, and the momentum of rope that changes sides. Unvalidated against
-measurements of an elevator.
+The states are tensions, not elongations: rope running on or off the sheave keeps its strain (no creep), which exceeds the
+mean of its side by mu g L/(2 EA) (the term mu g v_s/2: a slow trip under constant loads moves the car exactly as far as the
+rim), and the tensions are continuous when the stiffness is scheduled with the position. Neglected: creep, slip, slack, wave
+propagation in the ropes, and the momentum of rope that changes sides. Not validated against measurements of an elevator.
 """
 
 from dataclasses import dataclass
@@ -48,7 +47,7 @@ class Lumps:
 
 
 def lumps(drive: Drive, position: float) -> Lumps:
-    """Lengths and masses with the car at `position` [m above the bottom landing]."""
+    """Rope lengths and lumped masses for a car position [m above the bottom landing]."""
     plant, height = drive.plant, drive.shaft.height
     car_rope, counterweight_rope = plant.headroom + height - position, plant.headroom + position
     half = 0.5 * plant.rope_mass_per_length
@@ -62,7 +61,7 @@ def lumps(drive: Drive, position: float) -> Lumps:
 
 
 def moving_mass(drive: Drive) -> float:
-    """All that moves with the rope [kg], the machine's inertia as mass at the rim; the same at every position."""
+    """Total moving mass [kg], with the inertia of the machine as mass at the rim; independent of the car position."""
     parts = lumps(drive, 0.0)
     return parts.sheave + parts.car + parts.counterweight
 
@@ -75,7 +74,7 @@ def holding_force(drive: Drive, position: float, car_pull: float, counterweight_
 
 
 def state_space(drive: Drive, position: float) -> control.StateSpace:
-    """The hoist about the car at `position` [m]: inputs f, F_c, F_w [N], outputs all states."""
+    """State-space model of the hoist linearised about a car position [m]: inputs f, F_c, F_w [N], outputs all states."""
     parts = lumps(drive, position)
     weight = drive.plant.rope_mass_per_length * drive.shaft.gravity
     a, b = np.zeros((8, 8)), np.zeros((8, 3))
@@ -94,7 +93,7 @@ def state_space(drive: Drive, position: float) -> control.StateSpace:
 
 
 def _row(*pairs: float) -> np.ndarray:
-    """A row over the states from (index, factor, index, factor, ...)."""
+    """A matrix row over the states from (index, factor, index, factor, ...)."""
     row = np.zeros(len(STATES))
     for index, factor in zip(pairs[::2], pairs[1::2], strict=True):
         row[int(index)] = factor

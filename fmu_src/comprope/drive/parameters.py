@@ -1,4 +1,4 @@
-"""What an elevator drive is: its components, each quantity declared once.
+"""Parameters of an elevator drive, each declared once.
 
 The defaults are a 50 m test tower at 150 m/min (2.5 m/s) and 0.8 m/s2, machine above the shaft,
 ropes 1:1, and two compensation ropes that weigh as much per metre as all hoist ropes together.
@@ -10,9 +10,9 @@ from pydantic import model_validator
 
 from ..quantities import Component, quantity
 
-SHORTEST = 0.01  # s, of a moving average: a shorter one would be lost in rounding
-PARTS = 20  # of the travel time, for trips of a free shape
-STOPS = 1e-9  # of the largest acceleration over the travel time: the speed that a shape may end with
+SHORTEST = 0.01  # s, shortest moving average; below it rounding errors dominate
+PARTS = 20  # intervals of the travel time, for free-form trips
+STOPS = 1e-9  # accepted final speed of a free-form trip, relative to largest acceleration times travel time
 
 
 class Profile(Component):
@@ -21,7 +21,7 @@ class Profile(Component):
     speed: float = quantity("m/s", "rated speed", 0.01, 25.0, default=2.5)
     acceleration: float = quantity("m/s2", "largest acceleration and deceleration", 0.01, 3.0, default=0.8)
     jerk: float = quantity("m/s3", "largest rate of change of acceleration", 0.01, 20.0, default=0.8)
-    smoothing: float = quantity("s", "moving average over trips, after which the jerk has ramps; 0: none", 0.0, 20.0, default=0.0)
+    smoothing: float = quantity("s", "moving average over the trip, for a continuous jerk; 0: none", 0.0, 20.0, default=0.0)
 
     @model_validator(mode="after")
     def _smooths_for_a_while(self) -> "Profile":
@@ -31,13 +31,13 @@ class Profile(Component):
 
 
 def _share(k: int) -> float:
-    told = f"acceleration after {k}/{PARTS} of the travel time, over the largest; all 0: jerk-limited trips"
-    share: float = quantity("1", told, -1.0, 1.0, default=0.0)
+    help = f"acceleration after {k}/{PARTS} of the travel time, relative to the largest; all 0: jerk-limited trips"
+    share: float = quantity("1", help, -1.0, 1.0, default=0.0)
     return share
 
 
 class Curve(Component):
-    """A free shape of the trips: accelerations at twentieths of the travel time, straight lines between, 0 at both ends."""
+    """Free-form trips: accelerations at twentieths of the travel time, linear in between, 0 at both ends."""
 
     a1: float = _share(1)
     a2: float = _share(2)
@@ -71,18 +71,18 @@ class Curve(Component):
         if self.used and abs(speeds[-1]) > STOPS * PARTS:
             raise ValueError(f"the sum of a1 to a{PARTS - 1} is {speeds[-1]:.6g}: accepted is 0, so that the car stops")
         if self.used and (min(speeds) < -STOPS * PARTS or max(speeds) <= 0.0):
-            raise ValueError("a1, a1 + a2 and so on: no sum below 0 is accepted, so that the car never goes back")
+            raise ValueError("a1, a1 + a2 and so on: no sum below 0 is accepted, so that the car never reverses")
         return self
 
 
 class Shaper(Component):
-    """Input shaper of the trips, matched to the compensation rope's slowest swing."""
+    """Input shaper of the trips, for the longest natural period of the compensation rope."""
 
     impulses: float = quantity("1", "1: no shaper, 2: ZV, 3: ZVD, or EI with a tolerance", 1.0, 3.0, default=1.0)
-    period_landing: float = quantity("s", "period shaped for on trips about a terminal landing", 0.1, 60.0, default=4.0)
-    period_middle: float = quantity("s", "the same on trips about half-way up; in proportion in between", 0.1, 60.0, default=3.0)
-    damping: float = quantity("1", "damping ratio of that swing", 0.0, 0.5, default=0.0, nominal=0.01)
-    tolerance: float = quantity("1", "share of the swing that a shaper of three impulses may leave (EI)", 0.0, 0.5, default=0.0)
+    period_landing: float = quantity("s", "design period for trips near a terminal landing", 0.1, 60.0, default=4.0)
+    period_middle: float = quantity("s", "the same for trips about mid-height; linear in between", 0.1, 60.0, default=3.0)
+    damping: float = quantity("1", "damping ratio of this mode", 0.0, 0.5, default=0.0, nominal=0.01)
+    tolerance: float = quantity("1", "residual vibration of a shaper of three impulses (EI), relative", 0.0, 0.5, default=0.0)
 
     @model_validator(mode="after")
     def _counts(self) -> "Shaper":
@@ -92,11 +92,11 @@ class Shaper(Component):
 
 
 class FirstTrip(Component):
-    """Where the car stands, and the first trip it makes; heights above the bottom landing."""
+    """Initial position of the car and its first trip; heights above the bottom landing."""
 
     start_position: float = quantity("m", "car height at the start", 0.0, 1000.0, default=0.0, nominal=10.0)
     destination: float = quantity("m", "car height at the end of the first trip", 0.0, 1000.0, default=50.0)
-    start_time: float = quantity("s", "time at which the first trip begins; not before the run does", 0.0, 1e6, default=1.0)
+    start_time: float = quantity("s", "start of the first trip, not before that of the simulation", 0.0, 1e6, default=1.0)
 
 
 class Shaft(Component):
@@ -107,19 +107,19 @@ class Shaft(Component):
 
 
 class CompensationRopes(Component):
-    """How many ropes pull on the car and the counterweight with the tensions given for one rope."""
+    """Number of compensation ropes that act on car and counterweight."""
 
     count: float = quantity("1", "number of compensation ropes; the end tensions are per rope", 0.0, 50.0, default=2.0)
 
 
 class Plant(Component):
-    """Masses and hoist ropes; the machine stands above the top landing, ropes 1:1."""
+    """Masses and hoist ropes; machine above the top landing, 1:1 roping."""
 
-    car_mass: float = quantity("kg", "car with its load", 50.0, 1e5, default=2000.0)
-    counterweight_mass: float = quantity("kg", "counterweight", 50.0, 1e5, default=2300.0)
-    sheave_radius: float = quantity("m", "traction sheave, to the ropes' centre line", 0.05, 2.0, default=0.25)
+    car_mass: float = quantity("kg", "mass of the car with its load", 50.0, 1e5, default=2000.0)
+    counterweight_mass: float = quantity("kg", "mass of the counterweight", 50.0, 1e5, default=2300.0)
+    sheave_radius: float = quantity("m", "radius of the traction sheave to the ropes' centre line", 0.05, 2.0, default=0.25)
     machine_inertia: float = quantity("kg.m2", "moment of inertia of motor and traction sheave", 0.01, 1e5, default=30.0)
-    headroom: float = quantity("m", "hoist rope between the traction sheave and a car at the top landing", 0.5, 50.0, default=4.0)
+    headroom: float = quantity("m", "hoist rope length from traction sheave to a car at the top landing", 0.5, 50.0, default=4.0)
     rope_mass_per_length: float = quantity("kg/m", "mass per length of all hoist ropes together", 0.0, 100.0, default=2.4)
     rope_stiffness: float = quantity("N", "axial stiffness EA of all hoist ropes together", 1e5, 1e10, default=3e7)
     rope_damping: float = quantity("N.s", "axial force of all hoist ropes per strain rate", 0.0, 1e8, default=6e4)
@@ -133,12 +133,12 @@ class Servo(Component):
     speed_damping: float = quantity("1", "damping ratio of the speed loop on rigid ropes", 0.2, 5.0, default=1.0)
     torque_limit: float = quantity("N.m", "largest torque of the motor", 1.0, 1e7, default=5000.0)
     sample_period: float = quantity("s", "sample period of the controller", 1e-4, 0.02, default=1e-3)
-    velocity_feedforward: float = quantity("1", "share of the reference velocity that is fed forward", 0.0, 1.5, default=1.0)
-    acceleration_feedforward: float = quantity("1", "share of the inertia force that is fed forward", 0.0, 1.5, default=1.0)
+    velocity_feedforward: float = quantity("1", "fraction of the reference velocity that is fed forward", 0.0, 1.5, default=1.0)
+    acceleration_feedforward: float = quantity("1", "fraction of the inertia force that is fed forward", 0.0, 1.5, default=1.0)
 
 
 class Drive(Component):
-    """The whole drive."""
+    """All parameters of a drive."""
 
     shaft: Shaft = Shaft()
     profile: Profile = Profile()
@@ -151,7 +151,7 @@ class Drive(Component):
 
     @property
     def standing(self) -> "Drive":
-        """Shaft, plant and servo alone: what the closed loop depends on, whatever trips are made."""
+        """Shaft, plant and servo only: the parameters that the closed loop depends on."""
         return Drive(shaft=self.shaft, plant=self.plant, servo=self.servo, trip=FirstTrip(destination=0.0))
 
     @model_validator(mode="after")

@@ -1,7 +1,7 @@
-"""The hoist, scheduled: exact sampled steps about a row of car positions, made once before the run.
+"""Gain-scheduled hoist: exact discretisations about a row of car positions, computed once before the simulation.
 
-Each cell spans 1 % of the rope lengths' ratio, so that no stiffness changes by more than about that from
-one cell to the next; the cells are narrow where a rope is short and wide in the middle of a tall shaft.
+Each cell spans 1 % of the ratio of the rope lengths, so that stiffnesses change by about 1 % from
+one cell to the next; cells are small where a rope is short and large in the middle of a tall shaft.
 """
 
 from bisect import bisect
@@ -21,9 +21,10 @@ _N = len(STATES)
 
 @dataclass(frozen=True)
 class Cells:
-    """Cell i reaches up to `bounds[i]` [m]; a full vector holds the hoist's states and then its held inputs.
+    """Linearisations by car position; cell i extends up to `bounds[i]` [m].
 
-    `rates[i]` (8, 11) gives the states' rates, `steps[i]` (8, 11) the states one sample period on.
+    A full vector (11,) contains the hoist's states followed by its inputs. `rates[i]` (8, 11) gives the derivatives of the
+    states, `steps[i]` (8, 11) the states one sample period later.
     """
 
     bounds: list[float]
@@ -31,22 +32,22 @@ class Cells:
     steps: tuple[np.ndarray, ...]
 
     def at(self, position: float) -> int:
-        """The cell of a car position [m]; the outermost ones reach on for ever."""
+        """Index of the cell of a car position [m]; the outermost cells are unbounded."""
         return bisect(self.bounds, position)
 
     def period(self, cell: int, full: np.ndarray) -> None:
-        """Advance the states in the full vector (11,) by one sample period, inputs held."""
+        """Advance the states in the full vector (11,) by one sample period with constant inputs."""
         full[:_N] = self.steps[cell] @ full
 
     def part(self, cell: int, full: np.ndarray, duration: float) -> None:
-        """Advance the states in the full vector (11,) by `duration` [s], inputs held; as exact as a whole period."""
+        """Advance the states in the full vector (11,) by `duration` [s] with constant inputs, exactly."""
         square = np.zeros((full.size, full.size))
         square[:_N] = duration * self.rates[cell]
         full[:_N] = (expm(square) @ full)[:_N]
 
 
 def cells(drive: Drive) -> Cells:
-    """The cells of a drive's shaft; kept, so that a reset, another instance or another trip need not wait for them."""
+    """The cells of a drive; cached for resets, further instances and further trips."""
     return _cells(drive.standing)
 
 

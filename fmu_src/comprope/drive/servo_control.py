@@ -1,12 +1,12 @@
-"""The servo: position and speed control on the motor's encoder, designed and sampled with python-control.
+"""Servo control: cascade of position and speed control on the motor encoder, designed and discretised with python-control.
 
     v* = K_x (x_ref - s) + k_v v_ref                     position loop, K_x = position_bandwidth
     f  = K_p (v* - v_s) + K_i int (v* - v_s) dt + k_a M a_ref
 
 On rigid ropes the hoist is the mass M (`moving_mass`), and the gains place the speed loop's poles at
-p^2 + 2 damping bandwidth p + bandwidth^2. The encoder sits on the sheave that the motor turns, so
-the ropes' resonances come with an antiresonance each and take no phase; the car follows the rim within the
-stretch of its rope, m_c a L_c / EA.
+p^2 + 2 damping bandwidth p + bandwidth^2. The encoder is on the sheave driven by the motor
+(collocated), so that each resonance of the ropes comes with an antiresonance and no phase is lost; the car follows the rim
+up to the elongation of its rope, m_c a L_c / EA.
 """
 
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from .trajectory.s_curve import TrajectoryPoint
 
 @dataclass(frozen=True)
 class SpeedControl:
-    """The sampled proportional-integral law: force = gain e + out z, next z = z + into e; e is the speed error [m/s]."""
+    """Discrete proportional-integral controller: force = gain e + out z, next z = z + into e; e is the speed error [m/s]."""
 
     gain: float
     into: float
@@ -29,7 +29,7 @@ class SpeedControl:
 
 @dataclass(frozen=True)
 class Law:
-    """The sampled controller; forces at the rim [N]."""
+    """The discrete controller; forces at the rim [N]."""
 
     speed: SpeedControl
     position_gain: float
@@ -41,7 +41,7 @@ class Law:
     ) -> tuple[float, float]:
         """The motor's force [N] and the next integral, from the encoder's `way` [m] and `velocity` [m/s].
 
-        The force stays within `limits`; while it cannot, an error that would push it further is not integrated.
+        The force is limited to `limits`; while it is limited, an error of the same sign is not integrated (anti-windup).
         """
         wanted = self.position_gain * (reference.position - way) + self.velocity_feedforward * reference.velocity
         error = wanted - velocity
@@ -60,12 +60,12 @@ def continuous_speed_control(drive: Drive) -> control.StateSpace:
 
 
 def sampled_speed_control(drive: Drive) -> control.StateSpace:
-    """The speed control at the sample period, by Tustin's rule."""
+    """The speed controller discretised by Tustin's rule."""
     return control.sample_system(continuous_speed_control(drive), drive.servo.sample_period, method="tustin")
 
 
 def design(drive: Drive) -> Law:
-    """The controller that the drive runs."""
+    """Design of the discrete controller of a drive."""
     pi, servo = sampled_speed_control(drive), drive.servo
     return Law(
         SpeedControl(pi.D.item(), pi.B.item(), pi.C.item()),

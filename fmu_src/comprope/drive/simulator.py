@@ -1,7 +1,7 @@
-"""The drive on its way.
+"""Time simulation of the drive: sampled controller and exactly discretised hoist.
 
-The controller samples at start + count * period whatever the communication step. Between samples the motor's torque
-is held and the hoist moves on exactly, so that communication steps only decide when inputs are heard.
+The controller samples at start + count * period, independently of the communication step. Between samples the motor torque
+is constant and the hoist is integrated exactly, so that communication steps only determine when inputs are read.
 """
 
 import math
@@ -20,15 +20,15 @@ from .trajectory.reference_trajectory import reference_trajectory
 from .trajectory.s_curve import TrajectoryPoint, plan_s_curve
 
 TENSIONS = ("car_end_tension", "counterweight_end_tension")
-_FORCE, _PULLS = 8, slice(9, 11)  # places of the held inputs in the full vector
-_SAME_TIME = 1e-6  # times closer than this share of a sample period are the same: hosts add up their steps
+_FORCE, _PULLS = 8, slice(9, 11)  # indices of the constant inputs in the full vector
+_SAME_TIME = 1e-6  # times closer than this fraction of a sample period are equal: importers accumulate steps
 
 
 class DriveSimulator:
-    """One drive, from rest; see `engine.interface` for its inputs and outputs."""
+    """Simulator of one drive, initially at rest; inputs and outputs as in `cosimulation.interface`."""
 
     def __init__(self, drive: Drive, inputs: Mapping[str, Any], start_time: float) -> None:
-        """At rest at `start_time` [s], the motor holding car and counterweight against the tensions in `inputs`."""
+        """Equilibrium at `start_time` [s], the motor holding car and counterweight against the tensions in `inputs`."""
         self._drive, self._start, self._home = drive, start_time, drive.trip.start_position
         self._law, self._cells = design(drive), cells(drive)
         trip = plan_s_curve(drive.profile, self._home, drive.trip.destination, drive.trip.start_time)
@@ -40,7 +40,7 @@ class DriveSimulator:
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
         """Advance from `time` to `time + dt` [s] with inputs held.
 
-        Raises `InputError` for a destination outside the shaft or a tension that is no number, `SimulationError`
+        Raises `InputError` for a destination outside the shaft or a tension that is not finite, `SimulationError`
         when the motor is too weak to keep the car in the shaft.
         """
         found = input_problems(self._drive, inputs)
@@ -56,7 +56,7 @@ class DriveSimulator:
             self._move(end - memory.periods * period, same)
 
     def outputs(self) -> dict[str, Any]:
-        """Every output by name, at the time reached."""
+        """All outputs by name at the current time."""
         memory, full, time = self._memory, self._memory.full, self._now()
         reference, rates = self._course.at(time), self._cells.rates[memory.cell] @ full
         return {
@@ -76,11 +76,11 @@ class DriveSimulator:
         }
 
     def get_state(self) -> bytes:
-        """The whole state, enough to go on bit for bit in another process."""
+        """The complete state, for a bitwise equal restart in any process."""
         return self._memory.pack()
 
     def set_state(self, state: bytes) -> None:
-        """Restore what `get_state` gave to an engine with the same parameters and start time."""
+        """Restore a state of `get_state` of a simulator with the same parameters and start time."""
         self._memory = Memory.unpack(state)
         self._course = reference_trajectory(self._drive, self._memory.trip)
         self._hold()
@@ -90,13 +90,13 @@ class DriveSimulator:
         return self._start + (memory.periods * self._drive.servo.sample_period + memory.elapsed)
 
     def _hold(self) -> None:
-        """Work out the force at the rim [N] that holds the hoist at rest, and what the torque's limit leaves beside it."""
+        """Compute the force at the rim [N] that holds the hoist at rest, and the remaining range up to the torque limit."""
         self._holding = holding_force(self._drive, self._home, *self._memory.pulls)
         limit = self._drive.servo.torque_limit / self._drive.plant.sheave_radius
         self._limits = -limit - self._holding, limit - self._holding
 
     def _sample(self, destination: float) -> None:
-        """What the controller does once in a sample period: take a call, read the encoder, set the torque."""
+        """One sample of the controller: accept a call, read the encoder, set the torque."""
         memory, full, time = self._memory, self._memory.full, self._now()
         if time >= self._course.end_time and destination != memory.heard:
             memory.trip = plan_s_curve(self._drive.profile, memory.trip.destination, destination, time)
@@ -110,7 +110,7 @@ class DriveSimulator:
         full[_FORCE], memory.integral = self._law.force(memory.integral, reference, way, velocity, self._limits)
 
     def _move(self, until: float, same: float) -> None:
-        """Move the hoist on, `until` [s] after the last sample or to the next sample, whichever is first."""
+        """Integrate the hoist to `until` [s] after the last sample or to the next sample, whichever is first."""
         memory, period = self._memory, self._drive.servo.sample_period
         whole = until > period - same
         if whole and memory.elapsed == 0.0:
@@ -136,7 +136,7 @@ def compensation_pulls(drive: Drive, inputs: Mapping[str, Any]) -> tuple[float, 
 
 
 def input_problems(drive: Drive, inputs: Mapping[str, Any]) -> list[str]:
-    """A sentence for each input that the drive cannot take."""
+    """One sentence for each invalid input."""
     destination, height = inputs["destination"], drive.shaft.height
     found = [f"{name} = {inputs[name]} N: a finite number is accepted" for name in TENSIONS if not math.isfinite(inputs[name])]
     if not 0.0 <= destination <= height:

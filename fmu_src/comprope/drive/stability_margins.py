@@ -1,4 +1,4 @@
-"""How far the servo is from swinging: its loop, cut at the motor's torque, and the margins of that loop."""
+"""Stability margins of the servo, from its loop opened at the motor torque."""
 
 from dataclasses import dataclass
 
@@ -29,9 +29,9 @@ class Margins:
 
 
 def open_loop(drive: Drive, position: float) -> control.StateSpace:
-    """The sampled loop from the motor's torque to the torque asked for, car about `position` [m].
+    """The discrete open loop from motor torque to commanded torque, linearised about a car position [m].
 
-    The ways of car and counterweight are left out: nothing depends on them.
+    The displacements of car and counterweight are omitted, since nothing depends on them.
     """
     hoist, keep = state_space(drive, position), [S, V_S, V_C, V_W, T_C, T_W]
     encoder = np.array([[drive.servo.position_bandwidth, 1.0, 0.0, 0.0, 0.0, 0.0]])
@@ -58,6 +58,6 @@ def margins(drive: Drive, position: float) -> Margins:
 
 
 def unstable_positions(drive: Drive) -> list[float]:
-    """Which of the car's positions bottom, middle and top [m] leave a pole of the closed loop on or outside the unit circle."""
+    """Car positions among bottom, middle and top [m] for which the closed loop has a pole on or outside the unit circle."""
     height = drive.shaft.height
     return [x for x in (0.0, 0.5 * height, height) if max(abs(control.feedback(open_loop(drive, x), 1).poles())) >= 1.0]

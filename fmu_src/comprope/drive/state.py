@@ -1,4 +1,4 @@
-"""All that changes during a run of the drive, and its bytes."""
+"""State of the drive and its serialisation."""
 
 import struct
 from dataclasses import astuple, dataclass
@@ -15,11 +15,12 @@ _MARK = b"drive 1\0"
 
 @dataclass
 class Memory:
-    """The whole state of a drive.
+    """The complete state of a drive.
 
-    `periods` sample periods are over and `elapsed` [s] of the next one, during which the hoist is that of `cell`.
-    `integral` [m/s] is the speed control's; `heard` [m] the destination last acted upon; `pulls` [N] those of the
-    compensation ropes on car and counterweight at rest; `full` (11,) the hoist's states and then its held inputs.
+    `periods` sample periods have passed and `elapsed` [s] of the next one, during which the linearisation `cell` of the hoist
+    is used. `integral` [m/s] is that of the speed controller; `heard` [m] the last accepted destination; `pulls` [N] the pulls
+    of the compensation ropes on car and counterweight in the initial equilibrium; `full` (11,) the hoist's states followed by
+    its inputs.
     """
 
     periods: int
@@ -32,13 +33,13 @@ class Memory:
     full: np.ndarray
 
     def pack(self) -> bytes:
-        """The memory as bytes."""
+        """The state as bytes."""
         numbers = (self.elapsed, self.integral, self.heard, *self.pulls, *astuple(self.trip), *self.full)
         return _LAYOUT.pack(_MARK, self.periods, self.cell, *numbers)
 
     @classmethod
     def unpack(cls, state: bytes) -> "Memory":
-        """The memory in bytes made by `pack`; raises `InputError` for any others."""
+        """The state from bytes of `pack`; raises `InputError` for any others."""
         if len(state) != _LAYOUT.size or not state.startswith(_MARK):
             raise InputError(f"state of {len(state)} bytes: only a state saved by this version of the drive is accepted")
         _, periods, cell, elapsed, integral, heard, car, counterweight, *rest = _LAYOUT.unpack(state)

@@ -1,8 +1,8 @@
-"""Trips of a free shape: accelerations at equal parts of the travel time, straight lines between them.
+"""Free-form trips: accelerations at equal intervals of the travel time, linear in between.
 
-The shape is that of all trips; each takes the time in which it keeps the limits of speed, acceleration and jerk. With shares
-s_k of the largest acceleration A at the times k T / 20, and the shape's own largest speed c_v, jerk c_j and its way c_x (for
-A = 1, T = 1),
+All trips have the same shape; the duration of each follows from the limits of speed, acceleration and jerk. With fractions
+s_k of the largest acceleration A at the times k T / 20, and the largest speed c_v, the largest jerk c_j and the distance c_x of
+the shape (for A = 1, T = 1),
 
     way = A T^2 c_x   speed = A T c_v   jerk = A c_j / T
 """
@@ -38,7 +38,7 @@ class FreeCurve:
 
     @cached_property
     def knots(self) -> tuple[Shape, Shape, Shape, Shape]:
-        """At each knot: acceleration, velocity, way from the origin and the way's integral, in SI units, up positive."""
+        """At each knot: acceleration, velocity, distance from the origin and its integral, in SI units, up positive."""
         dt, distance = self.duration / PARTS, self.destination - self.origin
         most = distance / (self.duration**2 * way_of(self.shape)) if distance else 0.0
         a = tuple(most * one for one in self.shape)

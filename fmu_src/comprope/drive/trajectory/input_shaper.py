@@ -1,15 +1,15 @@
-"""Input shapers: a trip made of delayed shares of itself, so that a swing of known period cancels itself.
+"""Input shapers: a trip is the sum of delayed fractions of itself, so that the vibration of a known period cancels.
 
-With K = exp(-z pi / sqrt(1 - z^2)) for the damping ratio z, and T the damped period, the shares (to be divided by their sum)
+With K = exp(-z pi / sqrt(1 - z^2)) for the damping ratio z, and T the damped period, the weights (to be divided by their sum)
 and their delays are
 
     1  nothing                   1                           0
     2  ZV (Posicast)             1, K                        0, T/2
     3  ZVD, EI with a tolerance  1 + V, 2 (1 - V) K, (1 + V) K^2    0, T/2, T
 
-ZV leaves no swing at its period; ZVD (V = 0) none, and hardly any nearby; EI leaves the share V of what one step would at
-its period, and no more than V over a wider band (exact without damping; Singhose, Seering, Singer 1994). Positive
-shares that sum to one: no limit of speed, acceleration or jerk is exceeded by shaping.
+ZV leaves no residual vibration at its period; ZVD (V = 0) none, and hardly any nearby; EI leaves the fraction V of that of a
+single impulse at its period, and at most V over a wider band (exact without damping; Singhose, Seering, Singer 1994). The
+weights are positive and sum to one: shaping exceeds no limit of speed, acceleration or jerk.
 """
 
 from math import exp, pi, sqrt
@@ -21,7 +21,7 @@ NONE: Impulses = ((0.0, 1.0),)
 
 
 def impulses(shaper: Shaper, way: tuple[float, float], height: float) -> Impulses:
-    """The shaper's delays [s] and shares for a trip between two heights [m] in a shaft of `height` [m]."""
+    """Delays [s] and weights of the shaper for a trip between two heights [m] in a shaft of `height` [m]."""
     count = int(shaper.impulses)
     root = sqrt(1.0 - shaper.damping**2)
     fall, half = exp(-shaper.damping * pi / root), 0.5 * period_at(shaper, way, height) / root
@@ -31,9 +31,9 @@ def impulses(shaper: Shaper, way: tuple[float, float], height: float) -> Impulse
 
 
 def period_at(shaper: Shaper, way: tuple[float, float], height: float) -> float:
-    """The undamped period [s] that the shaper takes for a trip: linear in how far its middle is from half-way up.
+    """The undamped design period [s] for a trip: linear in the distance of its midpoint from the middle of the shaft.
 
-    The slowest swing is that of the longer side, so that it is the same above and below the middle.
+    The longest period is that of the longer side, hence symmetric about the middle.
     """
     share = abs(way[0] + way[1] - height) / height
     return shaper.period_middle + share * (shaper.period_landing - shaper.period_middle)

@@ -1,10 +1,10 @@
-"""What the servo follows: a jerk-limited trip, or one of a free shape, smoothed and shaped.
+"""Reference trajectory of the servo: a jerk-limited or free-form trip, smoothed and shaped.
 
-Smoothing is a moving average over the last S seconds, after which the jerk has ramps too:
+Smoothing is a moving average over the last S seconds, which makes the jerk continuous:
 
     velocity = (p(t) - p(t - S)) / S,   position = (W(t) - W(t - S)) / S   with W the integral of p
 
-Neither a moving average nor an input shaper lets a quantity pass a limit that the trip keeps.
+Neither a moving average nor an input shaper exceeds a limit that the trip meets.
 """
 
 from dataclasses import dataclass
@@ -25,17 +25,17 @@ class ReferenceTrajectory:
 
     @property
     def start_time(self) -> float:
-        """When the reference leaves its rest [s]."""
+        """Start of the motion of the reference [s]."""
         return self.trip.start_time
 
     @property
     def origin(self) -> float:
-        """Where it starts [m]."""
+        """Start position [m]."""
         return self.trip.origin
 
     @property
     def destination(self) -> float:
-        """Where it ends [m]."""
+        """Final position [m]."""
         return self.trip.destination
 
     @property

@@ -1,9 +1,9 @@
 """Jerk-limited trips from rest to rest, in closed form.
 
 A trip has seven phases: the jerk lasts `ramp`, the full acceleration `plateau`, the jerk again
-`ramp`, the full speed `cruise`, and then the same backwards. Short trips have no cruise, shorter
-ones no plateau either. The second half mirrors the first, so that only the first is written down
-and a trip ends on its destination to the last bit.
+`ramp`, the full speed `cruise`, and then the same in reverse. Short trips have no cruise, shorter
+ones no plateau either. The second half is computed as the mirror image of the first, so that
+a trip ends exactly at its destination.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from ..parameters import Profile
 
 @dataclass(frozen=True)
 class TrajectoryPoint:
-    """Where the reference is: position [m], velocity [m/s], acceleration [m/s2] and jerk [m/s3], up positive."""
+    """State of the reference: position [m], velocity [m/s], acceleration [m/s2] and jerk [m/s3], up positive."""
 
     position: float
     velocity: float = 0.0
