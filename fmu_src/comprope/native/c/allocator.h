@@ -1,20 +1,20 @@
-/* The importer's functions for memory, or C's own where it gives none. */
-#ifndef MEMORY_H
-#define MEMORY_H
+/* Memory from the importer's functions, or from the C library where the importer gives none. */
+#ifndef ALLOCATOR_H
+#define ALLOCATOR_H
 
 #include <stddef.h>
 #include <string.h>
 
 typedef struct {
-    void *(*take)(size_t count, size_t size);
-    void (*give_back)(void *);
-} Memory;
+    void *(*allocate)(size_t count, size_t size);
+    void (*release)(void *);
+} Allocator;
 
-/* Bytes that are zero, or NULL. FMI asks the importer for zeros, but not every one gives them. */
-static inline void *take_zeros(Memory memory, size_t bytes)
+/* Bytes that are zero, or NULL. FMI asks the importer for zeroed memory, but not every importer zeroes it. */
+static inline void *allocate_zeros(Allocator allocator, size_t bytes)
 {
-    void *taken = memory.take(1, bytes);
-    return taken ? memset(taken, 0, bytes) : NULL;
+    void *block = allocator.allocate(1, bytes);
+    return block ? memset(block, 0, bytes) : NULL;
 }
 
 #endif

@@ -5,199 +5,137 @@
 #include <math.h>
 #include <string.h>
 
-bool run_create(Run *run, Memory memory)
+/* Whether the phase allows a call. */
+static bool in_phase(Instance *instance, enum phase phase, const char *when)
 {
-    memset(run, 0, sizeof *run);
-    run->memory = memory;
-    run->stand.values = take_zeros(memory, VARIABLE_COUNT * sizeof(double));
-    if (run->stand.values) {
-        run_reset(run);
+    if (instance->state.phase != phase) {
+        message_add(&instance->problems, "this call is possible only %s", when);
     }
-    return run->stand.values;
+    return instance->state.phase == phase;
 }
 
-void run_free(Run *run)
+bool not_failed(Instance *instance)
 {
-    while (run->states) {
-        State *state = run->states;
-        run->states = state->next;
-        run->memory.give_back(state);
+    if (instance->state.failed) {
+        message_add(&instance->problems,
+                    "no steps and outputs after an error, unless reset or restored; the error was: %s",
+                    instance->state.failure);
     }
-    engine_free(&run->engine, run->memory);
-    run->memory.give_back(run->stand.values);
+    return !instance->state.failed;
 }
 
-void run_reset(Run *run)
+static bool set_times(Instance *instance, double start, double stop)
 {
-    Stand *stand = &run->stand;
-    stand->phase = INSTANTIATED;
-    stand->failed = 0;
-    stand->start = stand->time = 0.0;
-    stand->stop = INFINITY;
-    for (size_t k = 0; k < VARIABLE_COUNT; k++) {
-        stand->values[k] = VARIABLES[k].start;
-    }
-    memset(stand->failure, 0, sizeof stand->failure);
-    run->engine_made = false;
-}
-
-/* Refuse a call that the phase does not allow. */
-static bool in_phase(Run *run, enum phase phase, const char *when)
-{
-    if (run->stand.phase != phase) {
-        text_add(&run->problems, "this call is possible only %s", when);
-    }
-    return run->stand.phase == phase;
-}
-
-static bool sound(Run *run)
-{
-    if (run->stand.failed) {
-        text_add(&run->problems, "no steps and outputs after an error, unless reset or restored; the error was: %s",
-                 run->stand.failure);
-    }
-    return !run->stand.failed;
-}
-
-bool run_plan(Run *run, double start, double stop)
-{
-    if (!in_phase(run, INSTANTIATED, "before initialization")) {
+    Message *problems = &instance->problems;
+    if (!in_phase(instance, INSTANTIATED, "before initialization")) {
         return false;
     }
     if (!isfinite(start) || isnan(stop) || stop < start) {
-        text_add(&run->problems, "start time = ");
-        text_number(&run->problems, start);
-        text_add(&run->problems, " s, stop time = ");
-        text_number(&run->problems, stop);
-        text_add(&run->problems, " s: a finite start and a stop after it are accepted");
+        message_add(problems, "start time = ");
+        message_number(problems, start);
+        message_add(problems, " s, stop time = ");
+        message_number(problems, stop);
+        message_add(problems, " s: a finite start and a stop after it are accepted");
         return false;
     }
-    run->stand.start = run->stand.time = start;
-    run->stand.stop = stop;
-    run->engine_made = false;
+    instance->state.start = instance->state.time = start;
+    instance->state.stop = stop;
+    instance->model_ready = false;
     return true;
 }
 
-bool run_enter(Run *run)
+int setup_experiment(void *component, double start, bool stop_defined, double stop)
 {
-    const bool allowed = in_phase(run, INSTANTIATED, "before initialization");
+    Instance *instance = instance_begin_call(component);
+    return instance_end_call(instance, instance && set_times(instance, start, stop_defined ? stop : INFINITY));
+}
+
+int enter_initialization(void *component)
+{
+    Instance *instance = instance_begin_call(component);
+    const bool allowed = instance && in_phase(instance, INSTANTIATED, "before initialization");
     if (allowed) {
-        run->stand.phase = INITIALIZING;
+        instance->state.phase = INITIALIZING;
     }
-    return allowed;
+    return instance_end_call(instance, allowed);
 }
 
-/* Take over the engine's outputs if every one is finite. */
-static bool collect(Run *run)
+/* Copy the model's outputs to the values if all are finite. */
+static bool update_outputs(Instance *instance)
 {
-    const double *outputs = engine_show(&run->engine);
-    if (!check_outputs(outputs, &run->problems)) {
+    const double *outputs = rope_model_outputs(&instance->model);
+    if (!check_outputs(outputs, &instance->problems)) {
         return false;
     }
-    memcpy(run->stand.values + VARIABLE_COUNT - OUTPUT_COUNT, outputs, OUTPUT_COUNT * sizeof *outputs);
+    memcpy(instance->state.values + VARIABLE_COUNT - OUTPUT_COUNT, outputs, OUTPUT_COUNT * sizeof *outputs);
     return true;
 }
 
-bool run_make_engine(Run *run)
+bool ensure_model(Instance *instance)
 {
-    if (run->engine_made) {
+    InstanceState *state = &instance->state;
+    Message *problems = &instance->problems;
+    if (instance->model_ready) {
         return true;
     }
-    bool fine = check_ranges(PARAMETER, run->stand.values, &run->problems);
-    fine &= check_ranges(INPUT, run->stand.values, &run->problems);
-    fine = fine && engine_prepare(&run->engine, run->memory, run->stand.values, &run->problems);
-    fine = fine && engine_open(&run->engine, run->stand.start, &run->problems);
-    run->engine_made = fine && collect(run);
-    return run->engine_made;
+    bool valid = check_ranges(PARAMETER, state->values, problems);
+    valid &= check_ranges(INPUT, state->values, problems);
+    instance->model_ready = valid &&
+                            rope_model_prepare(&instance->model, instance->allocator, state->values, problems) &&
+                            rope_model_initialize(&instance->model, state->start, problems) && update_outputs(instance);
+    return instance->model_ready;
 }
 
-bool run_begin(Run *run)
+int exit_initialization(void *component)
 {
-    if (!in_phase(run, INITIALIZING, "in initialization mode") || !run_make_engine(run)) {
-        return false;
+    Instance *instance = instance_begin_call(component);
+    const bool initialized =
+        instance && in_phase(instance, INITIALIZING, "in initialization mode") && ensure_model(instance);
+    if (initialized) {
+        instance->state.phase = STEPPING;
     }
-    run->stand.phase = STEPPING;
-    return true;
+    return instance_end_call(instance, initialized);
 }
 
-bool run_step(Run *run, double time, double dt)
+static bool can_step(Instance *instance)
 {
-    Stand *stand = &run->stand;
-    bool fine = sound(run) && in_phase(run, STEPPING, "between the end of initialization and termination");
-    fine = fine && check_step(time, dt, stand->time, stand->stop, &run->problems);
-    fine = fine && check_ranges(INPUT, stand->values, &run->problems);
-    fine = fine && engine_step(&run->engine, time, dt, &run->problems) && collect(run);
-    if (fine) {
-        stand->time = time + dt;
+    return not_failed(instance) &&
+           in_phase(instance, STEPPING, "between the end of initialization and termination");
+}
+
+int do_step(void *component, double time, double dt)
+{
+    Instance *instance = instance_begin_call(component);
+    if (!instance) {
+        return STATUS_ERROR;
     }
-    return fine;
+    InstanceState *state = &instance->state;
+    Message *problems = &instance->problems;
+    const bool done = can_step(instance) && check_step(time, dt, state->time, state->stop, problems) &&
+                      check_ranges(INPUT, state->values, problems) &&
+                      rope_model_step(&instance->model, time, dt, problems) && update_outputs(instance);
+    if (done) {
+        state->time = time + dt;
+    }
+    return instance_end_call(instance, done);
 }
 
-bool run_terminate(Run *run)
+int terminate(void *component)
 {
-    const bool allowed = in_phase(run, STEPPING, "between the end of initialization and termination");
+    Instance *instance = instance_begin_call(component);
+    const bool allowed =
+        instance && in_phase(instance, STEPPING, "between the end of initialization and termination");
     if (allowed) {
-        run->stand.phase = TERMINATED;
+        instance->state.phase = TERMINATED;
     }
-    return allowed;
+    return instance_end_call(instance, allowed);
 }
 
-static bool known(Run *run, enum kind kind, unsigned reference)
+int reset(void *component)
 {
-    static const char *const NAMES[] = {"real", "integer", "boolean", "string"};
-    if (reference < VARIABLE_COUNT && VARIABLES[reference].kind == kind) {
-        return true;
+    Instance *instance = instance_begin_call(component);
+    if (instance) {
+        instance_set_to_start(instance);
     }
-    text_next(&run->problems);
-    text_add(&run->problems, "value reference %u: not of type %s", reference, NAMES[kind]);
-    return false;
-}
-
-bool run_readable(Run *run, enum kind kind, const unsigned *references, size_t count)
-{
-    bool output = false;
-    for (size_t k = 0; k < count; k++) {
-        if (!known(run, kind, references[k])) {
-            return false;
-        }
-        output |= VARIABLES[references[k]].role == OUTPUT;
-    }
-    return !output || (sound(run) && run_make_engine(run));
-}
-
-/* Whether a variable may take a value now. */
-static bool acceptable(Run *run, const Variable *variable, double value)
-{
-    const char *why = NULL;
-    if (variable->role == OUTPUT) {
-        why = "an output cannot be set";
-    } else if (variable->role == PARAMETER && run->stand.phase > INITIALIZING) {
-        why = "fixed once the run has started; reset the FMU to change it";
-    } else if (run->stand.phase == TERMINATED) {
-        why = "the run has ended";
-    } else {
-        return check_finite(variable, value, &run->problems);
-    }
-    text_next(&run->problems);
-    text_add(&run->problems, "%s = ", variable->name);
-    text_number(&run->problems, value);
-    text_add(&run->problems, ": %s", why);
-    return false;
-}
-
-bool run_write(Run *run, enum kind kind, const unsigned *references, size_t count,
-               double (*value)(const void *values, size_t place), const void *values)
-{
-    bool fine = true;
-    for (size_t k = 0; k < count; k++) {
-        fine = known(run, kind, references[k]) && acceptable(run, &VARIABLES[references[k]], value(values, k)) && fine;
-    }
-    for (size_t k = 0; fine && k < count; k++) {
-        double *target = &run->stand.values[references[k]];
-        if (*target != value(values, k) && run->stand.phase < STEPPING) {
-            run->engine_made = false;
-        }
-        *target = value(values, k);
-    }
-    return fine;
+    return instance_end_call(instance, true);
 }

@@ -1,9 +1,17 @@
-/* The life of an instance and its steps in FMI 2.0, each function a thin skin around one of `Run`. */
+/* The functions of FMI 2.0 for co-simulation: each translates types and calls one function for both versions of FMI. */
 
 #include "fmi2Functions.h"
-#include "instance.h"
 
-#include <math.h>
+#include "cosimulation.h"
+#include "fmu_state.h"
+#include "values.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+_Static_assert((int)fmi2OK == STATUS_OK && (int)fmi2Error == STATUS_ERROR, "statuses are those of the FMI");
+
+/* -- Inquiry and instances -- */
 
 const char *fmi2GetTypesPlatform(void)
 {
@@ -17,50 +25,227 @@ const char *fmi2GetVersion(void)
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t count, const fmi2String categories[])
 {
-    (void)on, (void)count, (void)categories; /* there is nothing but errors to log, and those are always told */
-    return instance_called(c) ? fmi2OK : fmi2Error;
+    (void)on, (void)count, (void)categories; /* only errors are logged, and those always */
+    return c ? fmi2OK : fmi2Error;
 }
 
-fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_given, fmi2Real tolerance, fmi2Real start,
-                               fmi2Boolean stop_given, fmi2Real stop)
+/* The importer's logger takes the sentence as a format, in which a percent sign is written twice. */
+static void send(const Logger *logger, const char *instance_name, const char *sentence)
 {
-    Instance *instance = instance_called(c);
-    (void)tolerance_given, (void)tolerance; /* accuracy is the affair of the model's own parameters */
-    return instance ? instance_finish(instance, run_plan(&instance->run, start, stop_given ? stop : INFINITY))
-                    : fmi2Error;
+    char format[2 * MESSAGE_SIZE];
+    size_t length = 0;
+
+    if (!logger->callback) {
+        return;
+    }
+    for (; *sentence && length < sizeof format - 2; sentence++) {
+        format[length++] = *sentence;
+        if (*sentence == '%') {
+            format[length++] = '%';
+        }
+    }
+    format[length] = '\0';
+    ((fmi2CallbackLogger)logger->callback)(logger->environment, instance_name, fmi2Error, "logStatusError", format);
+}
+
+static Allocator allocator_of(const fmi2CallbackFunctions *functions)
+{
+    if (functions->allocateMemory && functions->freeMemory) {
+        return (Allocator){functions->allocateMemory, functions->freeMemory};
+    }
+    return (Allocator){calloc, free};
+}
+
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
+{
+    (void)resources, (void)visible, (void)logging;
+    if (!functions) {
+        return NULL;
+    }
+    const char *refusal = type != fmi2CoSimulation ? "this FMU is for co-simulation only"
+                          : !guid || strcmp(guid, MODEL_GUID)
+                              ? "the GUID is not this FMU's: binary and modelDescription.xml do not belong together"
+                              : NULL;
+    const Logger logger = {send, (void (*)(void))functions->logger, functions->componentEnvironment};
+    return instance_create(name, refusal, logger, allocator_of(functions));
+}
+
+void fmi2FreeInstance(fmi2Component c)
+{
+    instance_free(c);
+}
+
+/* -- Initialization, steps and termination -- */
+
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance, fmi2Real start,
+                               fmi2Boolean stop_defined, fmi2Real stop)
+{
+    (void)tolerance_defined, (void)tolerance; /* the model's own parameters set its accuracy */
+    return setup_experiment(c, start, stop_defined, stop);
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
-    Instance *instance = instance_called(c);
-    return instance ? instance_finish(instance, run_enter(&instance->run)) : fmi2Error;
+    return enter_initialization(c);
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 {
-    Instance *instance = instance_called(c);
-    return instance ? instance_finish(instance, run_begin(&instance->run)) : fmi2Error;
+    return exit_initialization(c);
+}
+
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real dt, fmi2Boolean no_set_state_prior)
+{
+    (void)no_set_state_prior;
+    return do_step(c, time, dt);
 }
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
-    Instance *instance = instance_called(c);
-    return instance ? instance_finish(instance, run_terminate(&instance->run)) : fmi2Error;
+    return terminate(c);
 }
 
 fmi2Status fmi2Reset(fmi2Component c)
 {
-    Instance *instance = instance_called(c);
-    if (!instance) {
-        return fmi2Error;
+    return reset(c);
+}
+
+/* -- Values -- */
+
+static double load_boolean(const void *values, size_t index)
+{
+    return ((const fmi2Boolean *)values)[index] != fmi2False;
+}
+
+static void store_boolean(void *values, size_t index, double value)
+{
+    ((fmi2Boolean *)values)[index] = value != 0.0 ? fmi2True : fmi2False;
+}
+
+static const ValueType REAL_TYPE = {REAL, load_double, store_double, false};
+static const ValueType INTEGER_TYPE = {INTEGER, load_int32, store_int32, false};
+static const ValueType BOOLEAN_TYPE = {BOOLEAN, load_boolean, store_boolean, false};
+static const ValueType STRING_TYPE = {STRING, NULL, NULL, false}; /* the model has no strings */
+
+#define GETTER_AND_SETTER(Type, type)                                                                 \
+    fmi2Status fmi2Get##Type(fmi2Component c, const fmi2ValueReference references[], size_t count,    \
+                             fmi2##Type values[])                                                     \
+    {                                                                                                 \
+        return get_values(c, &type, references, count, values, count);                                \
+    }                                                                                                 \
+    fmi2Status fmi2Set##Type(fmi2Component c, const fmi2ValueReference references[], size_t count,    \
+                             const fmi2##Type values[])                                               \
+    {                                                                                                 \
+        return set_values(c, &type, references, count, values, count);                                \
     }
-    run_reset(&instance->run);
+
+GETTER_AND_SETTER(Real, REAL_TYPE)
+GETTER_AND_SETTER(Integer, INTEGER_TYPE)
+GETTER_AND_SETTER(Boolean, BOOLEAN_TYPE)
+GETTER_AND_SETTER(String, STRING_TYPE)
+
+/* -- Saved states -- */
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
+{
+    return save_state(c, state);
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
+{
+    return restore_state(c, state);
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
+{
+    return free_state(c, state);
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
+{
+    return serialized_size(c, state, size);
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
+{
+    return serialize_state(c, state, bytes, size);
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
+{
+    return deserialize_state(c, bytes, size, state);
+}
+
+/* -- What this FMU does not offer -- */
+
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count,
+                                       const fmi2Integer orders[], const fmi2Real values[])
+{
+    (void)references, (void)count, (void)orders, (void)values;
+    return instance_refuse(
+        c, "derivatives of inputs cannot be set; velocities and accelerations are inputs of their own");
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count,
+                                        const fmi2Integer orders[], fmi2Real values[])
+{
+    (void)references, (void)count, (void)orders, (void)values;
+    return instance_refuse(c, "derivatives of outputs are not offered");
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t unknown_count,
+                                        const fmi2ValueReference knowns[], size_t known_count, const fmi2Real changes[],
+                                        fmi2Real results[])
+{
+    (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)changes, (void)results;
+    return instance_refuse(c, "directional derivatives are not offered");
+}
+
+fmi2Status fmi2CancelStep(fmi2Component c)
+{
+    return instance_refuse(c, "no step is in progress: each call of fmi2DoStep returns when its step is done");
+}
+
+/* -- Status; what cannot be answered is no error: FMI says to discard it -- */
+
+static fmi2Status no_answer(fmi2Component c)
+{
+    return c ? fmi2Discard : fmi2Error;
+}
+
+fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
+{
+    (void)kind, (void)value;
+    return no_answer(c);
+}
+
+fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
+{
+    if (!c || !value || kind != fmi2LastSuccessfulTime) {
+        return no_answer(c);
+    }
+    *value = ((const Instance *)c)->state.time;
     return fmi2OK;
 }
 
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real dt, fmi2Boolean keeps_no_state)
+fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
 {
-    Instance *instance = instance_called(c);
-    (void)keeps_no_state;
-    return instance ? instance_finish(instance, run_step(&instance->run, time, dt)) : fmi2Error;
+    (void)kind, (void)value;
+    return no_answer(c);
+}
+
+fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
+{
+    if (!c || !value || kind != fmi2Terminated) {
+        return no_answer(c);
+    }
+    *value = fmi2False; /* only the importer ends a simulation */
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
+{
+    (void)kind, (void)value;
+    return no_answer(c);
 }

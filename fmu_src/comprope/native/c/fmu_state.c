@@ -1,177 +1,250 @@
 #include "fmu_state.h"
 
 #include "validation.h"
+#include "variables.h"
 
+#include <stddef.h>
 #include <string.h>
 
-enum { HEAD = offsetof(State, size) }; /* what comes before is of this process only */
+/* One block of memory: this head, the values of all variables, the numbers of the model's state. */
+typedef struct SavedState {
+    struct SavedState *next;
+    size_t size; /* bytes of the block */
+    char model[64];
+    InstanceState instance_state;
+    size_t model_numbers; /* none before the steps begin */
+    double numbers[];
+} SavedState;
 
-static size_t whole_size(size_t engine_numbers)
+enum { SERIALIZED_FROM = offsetof(SavedState, size) }; /* what comes before is valid in this process only */
+
+static size_t block_size(size_t model_numbers)
 {
-    return offsetof(State, numbers) + (VARIABLE_COUNT + engine_numbers) * sizeof(double);
+    return offsetof(SavedState, numbers) + (VARIABLE_COUNT + model_numbers) * sizeof(double);
 }
 
 /* Whether this is a state of this instance that has not been freed. */
-static bool ours(Run *run, const State *state)
+static bool is_own(Instance *instance, const SavedState *state)
 {
-    for (const State *one = run->states; one; one = one->next) {
+    for (const SavedState *one = instance->saved_states; one; one = one->next) {
         if (one == state) {
             return true;
         }
     }
-    text_add(&run->problems, "saved state: not one of this instance, or freed already");
+    message_add(&instance->problems, "saved state: not one of this instance, or freed already");
     return false;
 }
 
-static State *new_state(Run *run, size_t engine_numbers)
+static SavedState *new_state(Instance *instance, size_t model_numbers)
 {
-    State *state = take_zeros(run->memory, whole_size(engine_numbers));
+    SavedState *state = allocate_zeros(instance->allocator, block_size(model_numbers));
     if (!state) {
-        text_add(&run->problems, "no memory for a state of %lu bytes", (unsigned long)whole_size(engine_numbers));
+        message_add(&instance->problems, "no memory for a state of %lu bytes",
+                    (unsigned long)block_size(model_numbers));
         return NULL;
     }
-    state->next = run->states;
-    run->states = state;
-    state->size = whole_size(engine_numbers);
-    state->engine_numbers = engine_numbers;
+    state->next = instance->saved_states;
+    instance->saved_states = state;
+    state->size = block_size(model_numbers);
+    state->model_numbers = model_numbers;
     return state;
 }
 
-bool state_free(Run *run, State **state)
+static void release_state(Instance *instance, SavedState *state)
 {
-    if (!*state) {
-        return true;
-    }
-    if (!ours(run, *state)) {
-        return false;
-    }
-    State **link = &run->states;
-    while (*link != *state) {
+    SavedState **link = &instance->saved_states;
+    while (*link != state) {
         link = &(*link)->next;
     }
-    *link = (*state)->next;
-    run->memory.give_back(*state);
-    *state = NULL;
-    return true;
+    *link = state->next;
+    instance->allocator.release(state);
 }
 
-bool state_save(Run *run, State **state)
+void free_all_states(Instance *instance)
 {
-    const size_t wanted = run->stand.phase >= STEPPING ? run->engine.state_numbers : 0;
-    State *saved = *state;
-    if (saved && !ours(run, saved)) {
+    while (instance->saved_states) {
+        release_state(instance, instance->saved_states);
+    }
+}
+
+int free_state(void *component, void **state)
+{
+    Instance *instance = instance_begin_call(component);
+    const bool present = state && *state;
+    const bool allowed = instance && (!present || is_own(instance, *state));
+    if (allowed && present) {
+        release_state(instance, *state);
+        *state = NULL;
+    }
+    return instance_end_call(instance, allowed);
+}
+
+static void copy_to_state(const Instance *instance, SavedState *saved)
+{
+    strncpy(saved->model, MODEL_GUID, sizeof saved->model - 1);
+    saved->instance_state = instance->state;
+    saved->instance_state.values = NULL;
+    memcpy(saved->numbers, instance->state.values, VARIABLE_COUNT * sizeof(double));
+    if (saved->model_numbers) {
+        memcpy(saved->numbers + VARIABLE_COUNT, instance->model.block, saved->model_numbers * sizeof(double));
+    }
+}
+
+static bool save(Instance *instance, void **state)
+{
+    const size_t model_numbers = instance->state.phase >= STEPPING ? instance->model.state_numbers : 0;
+    SavedState *old = *state, *saved = old;
+    if (old && !is_own(instance, old)) {
         return false;
     }
-    if (!saved || saved->engine_numbers != wanted) {
-        saved = new_state(run, wanted);
-        if (!saved || !state_free(run, state)) {
+    if (!old || old->model_numbers != model_numbers) {
+        saved = new_state(instance, model_numbers);
+        if (!saved) {
             return false;
         }
+        if (old) {
+            release_state(instance, old);
+        }
     }
-    strncpy(saved->model, MODEL_GUID, sizeof saved->model - 1);
-    saved->stand = run->stand;
-    saved->stand.values = NULL;
-    memcpy(saved->numbers, run->stand.values, VARIABLE_COUNT * sizeof(double));
-    if (wanted) {
-        memcpy(saved->numbers + VARIABLE_COUNT, run->engine.block, wanted * sizeof(double));
-    }
+    copy_to_state(instance, saved);
     *state = saved;
     return true;
 }
 
-/* Ready the engine for a state's parameters, unless it is. */
-static bool ready_for(Run *run, const State *state)
+int save_state(void *component, void **state)
 {
-    const size_t parameters = VARIABLE_COUNT - OUTPUT_COUNT; /* and inputs, which do no harm */
-    double *values = run->stand.values;
-    if (run->engine_made && !memcmp(values, state->numbers, FIRST_INPUT * sizeof *values)) {
-        return true;
+    if (!state) {
+        return instance_refuse(component, "no place for a state is given");
     }
-    if (!check_ranges(PARAMETER, state->numbers, &run->problems)) {
-        return false;
-    }
-    run->engine_made = false;
-    memcpy(values, state->numbers, parameters * sizeof *values);
-    return engine_prepare(&run->engine, run->memory, values, &run->problems);
+    Instance *instance = instance_begin_call(component);
+    return instance_end_call(instance, instance && save(instance, state));
 }
 
-bool state_restore(Run *run, const State *state)
+/* Prepare the model for a state's parameters, unless it has them. */
+static bool prepare_model_for(Instance *instance, const SavedState *state)
 {
-    if (!ours(run, state)) {
+    const size_t settable = VARIABLE_COUNT - OUTPUT_COUNT; /* parameters and inputs */
+    double *values = instance->state.values;
+    if (instance->model_ready && !memcmp(values, state->numbers, FIRST_INPUT * sizeof *values)) {
+        return true;
+    }
+    if (!check_ranges(PARAMETER, state->numbers, &instance->problems)) {
         return false;
     }
-    double *values = run->stand.values;
-    if (state->engine_numbers) {
-        if (!ready_for(run, state)) {
-            return false;
-        }
-        if (state->engine_numbers != run->engine.state_numbers) {
-            text_add(&run->problems, "saved state: of another mesh than its parameters give");
-            return false;
-        }
-        memcpy(run->engine.block, state->numbers + VARIABLE_COUNT, state->engine_numbers * sizeof(double));
+    instance->model_ready = false;
+    memcpy(values, state->numbers, settable * sizeof *values);
+    return rope_model_prepare(&instance->model, instance->allocator, values, &instance->problems);
+}
+
+static bool restore(Instance *instance, const SavedState *state)
+{
+    if (!is_own(instance, state)) {
+        return false;
     }
-    run->engine_made = state->engine_numbers != 0;
-    run->stand = state->stand;
-    run->stand.values = values;
+    double *values = instance->state.values;
+    if (state->model_numbers) {
+        if (!prepare_model_for(instance, state)) {
+            return false;
+        }
+        if (state->model_numbers != instance->model.state_numbers) {
+            message_add(&instance->problems, "saved state: of another mesh than its parameters give");
+            return false;
+        }
+        memcpy(instance->model.block, state->numbers + VARIABLE_COUNT, state->model_numbers * sizeof(double));
+    }
+    instance->model_ready = state->model_numbers != 0;
+    instance->state = state->instance_state;
+    instance->state.values = values;
     memcpy(values, state->numbers, VARIABLE_COUNT * sizeof *values);
     return true;
 }
 
-bool state_size(Run *run, const State *state, size_t *size)
+int restore_state(void *component, const void *state)
 {
-    if (!ours(run, state)) {
+    Instance *instance = instance_begin_call(component);
+    return instance_end_call(instance, instance && restore(instance, state));
+}
+
+int serialized_size(void *component, const void *state, size_t *size)
+{
+    if (!size) {
+        return instance_refuse(component, "no place for a size is given");
+    }
+    Instance *instance = instance_begin_call(component);
+    const bool allowed = instance && is_own(instance, state);
+    if (allowed) {
+        *size = ((const SavedState *)state)->size - SERIALIZED_FROM;
+    }
+    return instance_end_call(instance, allowed);
+}
+
+static bool serialize(Instance *instance, const SavedState *state, void *bytes, size_t size)
+{
+    if (!is_own(instance, state)) {
         return false;
     }
-    *size = state->size - HEAD;
+    const size_t needed = state->size - SERIALIZED_FROM;
+    if (size < needed) {
+        message_add(&instance->problems, "saved state: needs %lu bytes, %lu are given", (unsigned long)needed,
+                    (unsigned long)size);
+        return false;
+    }
+    memcpy(bytes, (const char *)state + SERIALIZED_FROM, needed);
     return true;
 }
 
-bool state_to_bytes(Run *run, const State *state, char *bytes, size_t size)
+int serialize_state(void *component, const void *state, void *bytes, size_t size)
 {
-    if (!ours(run, state)) {
-        return false;
+    if (!bytes) {
+        return instance_refuse(component, "no place for the bytes is given");
     }
-    if (size < state->size - HEAD) {
-        text_add(&run->problems, "saved state: needs %lu bytes, %lu are given", (unsigned long)(state->size - HEAD),
-                 (unsigned long)size);
-        return false;
-    }
-    memcpy(bytes, (const char *)state + HEAD, state->size - HEAD);
-    return true;
+    Instance *instance = instance_begin_call(component);
+    return instance_end_call(instance, instance && serialize(instance, state, bytes, size));
 }
 
 /* Whether bytes have the form of a state of this very FMU; `head` is a copy of their beginning. */
-static bool is_state(const State *head, size_t size)
+static bool is_state(const SavedState *head, size_t size)
 {
-    const Stand *stand = &head->stand;
-    if (size + HEAD != head->size || head->model[sizeof head->model - 1] || strcmp(head->model, MODEL_GUID) != 0) {
+    const InstanceState *state = &head->instance_state;
+    if (size + SERIALIZED_FROM != head->size || head->model[sizeof head->model - 1] ||
+        strcmp(head->model, MODEL_GUID) != 0) {
         return false;
     }
-    const bool running = stand->phase == STEPPING || stand->phase == TERMINATED;
-    if (head->engine_numbers > size / sizeof(double) || head->size != whole_size(head->engine_numbers)) {
+    if (head->model_numbers > size / sizeof(double) || head->size != block_size(head->model_numbers)) {
         return false;
     }
-    return (unsigned)stand->phase <= TERMINATED && running == (head->engine_numbers != 0) && !stand->values &&
-           !stand->failure[sizeof stand->failure - 1];
+    const bool running = state->phase == STEPPING || state->phase == TERMINATED;
+    return (unsigned)state->phase <= TERMINATED && running == (head->model_numbers != 0) && !state->values &&
+           !state->failure[sizeof state->failure - 1];
 }
 
-bool state_from_bytes(Run *run, const char *bytes, size_t size, State **state)
+static bool deserialize(Instance *instance, const void *bytes, size_t size, void **state)
 {
-    State head;
+    const size_t head_size = offsetof(SavedState, numbers) - SERIALIZED_FROM;
+    SavedState head;
     memset(&head, 0, sizeof head);
-    if (size >= offsetof(State, numbers) - HEAD) {
-        memcpy((char *)&head + HEAD, bytes, offsetof(State, numbers) - HEAD);
+    if (size >= head_size) {
+        memcpy((char *)&head + SERIALIZED_FROM, bytes, head_size);
     }
     if (!is_state(&head, size)) {
-        text_add(&run->problems, "saved state: %lu bytes that are not a whole state of this FMU", (unsigned long)size);
+        message_add(&instance->problems, "saved state: %lu bytes that are not a whole state of this FMU",
+                    (unsigned long)size);
         return false;
     }
-    State *made = new_state(run, head.engine_numbers);
-    if (!made) {
+    SavedState *created = new_state(instance, head.model_numbers);
+    if (!created) {
         return false;
     }
-    memcpy((char *)made + HEAD, bytes, size);
-    *state = made;
+    memcpy((char *)created + SERIALIZED_FROM, bytes, size);
+    *state = created;
     return true;
+}
+
+int deserialize_state(void *component, const void *bytes, size_t size, void **state)
+{
+    if (!bytes || !state) {
+        return instance_refuse(component, "bytes or a place for the state are missing");
+    }
+    Instance *instance = instance_begin_call(component);
+    return instance_end_call(instance, instance && deserialize(instance, bytes, size, state));
 }

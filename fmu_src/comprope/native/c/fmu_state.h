@@ -1,17 +1,19 @@
-/* Saved states of an instance: taken, restored, turned into bytes and back, bit for bit. See `Run` for the conventions.
- */
-#ifndef STATE_H
-#define STATE_H
+/* Saved states of an instance: saved, restored, serialized and deserialized, bit for bit. See instance.h for the
+ * conventions. A state is of type SavedState. */
+#ifndef FMU_STATE_H
+#define FMU_STATE_H
 
-#include "cosimulation.h"
+#include "instance.h"
 
 /* Save into *state, which is NULL or a state of this instance to be overwritten. */
-bool state_save(Run *run, State **state);
-bool state_restore(Run *run, const State *state);
-bool state_free(Run *run, State **state);
+int save_state(void *component, void **state);
+int restore_state(void *component, const void *state);
+int free_state(void *component, void **state);
 
-bool state_size(Run *run, const State *state, size_t *size);
-bool state_to_bytes(Run *run, const State *state, char *bytes, size_t size);
-bool state_from_bytes(Run *run, const char *bytes, size_t size, State **state);
+int serialized_size(void *component, const void *state, size_t *size);
+int serialize_state(void *component, const void *state, void *bytes, size_t size);
+int deserialize_state(void *component, const void *bytes, size_t size, void **state);
+
+void free_all_states(Instance *instance);
 
 #endif

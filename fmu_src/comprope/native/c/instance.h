@@ -1,35 +1,63 @@
-/* One instance of the FMU as its importer knows it, and how errors get out, whichever version of FMI it is called by. */
+/* One instance of the FMU, whichever version of FMI it is called by: its state, its model, and how errors are reported.
+ *
+ * Every function whose argument is a `component` is one call of the FMI. It returns a status, and reports an error to the
+ * importer. A refused call changes nothing but marks the instance as failed: after an error there are no steps and no
+ * outputs until it is reset or a saved state is restored, so that not even an importer that ignores errors can take old
+ * values for new ones. Functions with an `instance` return whether they succeeded; if not, `problems` says why.
+ */
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
-#include "cosimulation.h"
+#include "allocator.h"
+#include "message.h"
+#include "rope_model.h"
 
-enum { INSTANCE_OK = 0, INSTANCE_ERROR = 3 }; /* as FMI 2.0 and FMI 3.0 have them */
+#include <stdbool.h>
 
-/* Where sentences go: `send` knows of which type the importer's logger is. */
-typedef struct Log {
-    void (*send)(const struct Log *log, const char *name, const char *sentence);
-    void (*logger)(void);
-    void *environment;
-} Log;
+enum { STATUS_OK = 0, STATUS_ERROR = 3 }; /* the same values in FMI 2.0 and FMI 3.0 */
+
+enum phase { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED };
 
 typedef struct {
-    Run run;
-    Log log;
+    enum phase phase;
+    int failed;
+    double start, stop, time; /* s; stop is infinite where none is set */
+    double *values;           /* of all variables; those of outputs are of the last step */
+    char failure[MESSAGE_SIZE];
+} InstanceState;
+
+/* Where error messages go: `send` knows which type the importer's `callback` has. */
+typedef struct Logger {
+    void (*send)(const struct Logger *logger, const char *instance_name, const char *sentence);
+    void (*callback)(void);
+    void *environment;
+} Logger;
+
+typedef struct {
     char name[256];
+    Logger logger;
+    Allocator allocator;
+    InstanceState state;
+    RopeModel model;
+    bool model_ready; /* initialized from the present values */
+    struct SavedState *saved_states; /* those not freed yet */
+    Message problems;
 } Instance;
 
-/* A new instance; NULL, and the importer is told, if there is a reason `why` not or no memory. */
-Instance *instance_new(const char *name, const char *why, Log log, Memory memory);
-void instance_free(Instance *instance);
+/* A new instance; NULL, reported to the importer, if `refusal` gives a reason or there is no memory. */
+Instance *instance_create(const char *name, const char *refusal, Logger logger, Allocator allocator);
+void instance_free(void *component);
 
-/* The instance, ready for a call; NULL if there is none. */
-Instance *instance_called(void *component);
+/* Back to the start values of all variables. */
+void instance_set_to_start(Instance *instance);
 
-/* The end of every call: an error is told to the importer and puts the instance out of action. */
-int instance_finish(Instance *instance, bool succeeded);
+/* The instance, without problems left from an earlier call; NULL if there is none. */
+Instance *instance_begin_call(void *component);
 
-/* The end of a call that is an error in itself. */
-int instance_refuse(Instance *instance, const char *why);
+/* The status of a call: an error is reported to the importer and marks the instance as failed. */
+int instance_end_call(Instance *instance, bool succeeded);
+
+/* The status of a call that is an error in itself. */
+int instance_refuse(void *component, const char *reason);
 
 #endif

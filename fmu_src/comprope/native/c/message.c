@@ -7,44 +7,44 @@
 
 static const char CUT[] = " ...";
 
-void text_clear(Text *text)
+void message_clear(Message *message)
 {
-    text->length = 0;
-    text->chars[0] = '\0';
+    message->length = 0;
+    message->chars[0] = '\0';
 }
 
-void text_add(Text *text, const char *format, ...)
+void message_add(Message *message, const char *format, ...)
 {
-    const size_t room = sizeof text->chars - text->length;
+    const size_t room = sizeof message->chars - message->length;
     va_list arguments;
 
     va_start(arguments, format);
-    const int wanted = vsnprintf(text->chars + text->length, room, format, arguments);
+    const int wanted = vsnprintf(message->chars + message->length, room, format, arguments);
     va_end(arguments);
     if (wanted < 0) {
-        text->chars[text->length] = '\0';
+        message->chars[message->length] = '\0';
     } else if ((size_t)wanted < room) {
-        text->length += (size_t)wanted;
+        message->length += (size_t)wanted;
     } else {
-        text->length = sizeof text->chars - 1;
-        memcpy(text->chars + sizeof text->chars - sizeof CUT, CUT, sizeof CUT);
+        message->length = sizeof message->chars - 1;
+        memcpy(message->chars + sizeof message->chars - sizeof CUT, CUT, sizeof CUT);
     }
 }
 
-void text_next(Text *text)
+void message_next(Message *message)
 {
-    if (text->length) {
-        text_add(text, "; ");
+    if (message->length) {
+        message_add(message, "; ");
     }
 }
 
-void text_number(Text *text, double number)
+void message_number(Message *message, double number)
 {
     if (isnan(number)) {
-        text_add(text, "nan");
+        message_add(message, "nan");
     } else if (isinf(number)) {
-        text_add(text, number > 0.0 ? "inf" : "-inf");
+        message_add(message, number > 0.0 ? "inf" : "-inf");
     } else {
-        text_add(text, "%.6g", number);
+        message_add(message, "%.6g", number);
     }
 }

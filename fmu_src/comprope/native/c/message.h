@@ -1,23 +1,23 @@
-/* Sentences for the importer, put together piece by piece; what does not fit is cut and marked. */
-#ifndef TEXT_H
-#define TEXT_H
+/* Error messages, built piece by piece; what does not fit is cut and marked. */
+#ifndef MESSAGE_H
+#define MESSAGE_H
 
 #include <stddef.h>
 
-enum { TEXT_SIZE = 2048 };
+enum { MESSAGE_SIZE = 2048 };
 
 typedef struct {
     size_t length;
-    char chars[TEXT_SIZE];
-} Text;
+    char chars[MESSAGE_SIZE];
+} Message;
 
-void text_clear(Text *text);
-void text_add(Text *text, const char *format, ...);
+void message_clear(Message *message);
+void message_add(Message *message, const char *format, ...);
 
-/* Begin one more problem: a "; " where there is one already. */
-void text_next(Text *text);
+/* Begin one more problem: adds "; " if there is one already. */
+void message_next(Message *message);
 
-/* Add a number in six digits; "nan" and "inf" look the same on every system. */
-void text_number(Text *text, double number);
+/* Add a number in six digits; "nan" and "inf" are written the same on every system. */
+void message_number(Message *message, double number);
 
 #endif

@@ -6,14 +6,14 @@
 #include <string.h>
 
 /* Add a kernel's refusal in the words it shares with Python; returns whether there was none. */
-static bool fine(const Rope *rope, int64_t status, Text *problems)
+static bool fine(const Rope *rope, int64_t status, Message *problems)
 {
     const double *told = rope->array[AT_told];
     if (status == 0) {
         return true;
     }
-    text_next(problems);
-    text_add(problems, WORDS[status], told[0], told[1], told[2], told[3], told[4], told[5]);
+    message_next(problems);
+    message_add(problems, WORDS[status], told[0], told[1], told[2], told[3], told[4], told[5]);
     return false;
 }
 
@@ -31,46 +31,46 @@ static size_t size_of(size_t array, size_t columns)
 }
 
 /* Point the arrays into the block, which begins with those that make the state. */
-static void divide_block(Engine *engine, double *values, size_t columns)
+static void divide_block(RopeModel *model, double *values, size_t columns)
 {
-    double *at = engine->block;
+    double *at = model->block;
     for (size_t k = 0; k < ARRAYS; k++) {
-        engine->rope.array[k] = at;
+        model->rope.array[k] = at;
         at += size_of(k, columns);
         if (k + 1 == STATE_ARRAYS) {
-            engine->state_numbers = (size_t)(at - engine->block);
+            model->state_numbers = (size_t)(at - model->block);
         }
     }
-    engine->rope.array[AT_u] = values + FIRST_INPUT;
-    engine->rope.array[AT_options] = values + FIRST_OPTION;
-    engine->rope.array[AT_spots] = values + FIRST_SENSOR;
+    model->rope.array[AT_u] = values + FIRST_INPUT;
+    model->rope.array[AT_options] = values + FIRST_OPTION;
+    model->rope.array[AT_spots] = values + FIRST_SENSOR;
 }
 
-static bool take_block(Engine *engine, Memory memory, size_t columns, Text *problems)
+static bool allocate_block(RopeModel *model, Allocator allocator, size_t columns, Message *problems)
 {
     size_t numbers = 0;
     for (size_t k = 0; k < ARRAYS; k++) {
         numbers += size_of(k, columns);
     }
-    if (engine->block && engine->numbers == numbers) {
+    if (model->block && model->numbers == numbers) {
         return true;
     }
-    engine_free(engine, memory);
-    engine->block = take_zeros(memory, numbers * sizeof(double));
-    if (!engine->block) {
-        text_next(problems);
-        text_add(problems, "the rope's mesh of %lu nodes needs %.0f MB of memory, which are not there",
+    rope_model_free(model, allocator);
+    model->block = allocate_zeros(allocator, numbers * sizeof(double));
+    if (!model->block) {
+        message_next(problems);
+        message_add(problems, "the rope's mesh of %lu nodes needs %.0f MB of memory, which are not there",
                  (unsigned long)columns - 1, 8e-6 * (double)numbers);
         return false;
     }
-    engine->numbers = numbers;
+    model->numbers = numbers;
     return true;
 }
 
-bool engine_prepare(Engine *engine, Memory memory, double *values, Text *problems)
+bool rope_model_prepare(RopeModel *model, Allocator allocator, double *values, Message *problems)
 {
     double p[SLOT_COUNT], told[TOLD];
-    Rope *rope = &engine->rope;
+    Rope *rope = &model->rope;
 
     flatten(values, p);
     rope->array[AT_p] = p;
@@ -79,14 +79,14 @@ bool engine_prepare(Engine *engine, Memory memory, double *values, Text *problem
         return false;
     }
     const size_t columns = (size_t)rope_divide(rope) + 1;
-    if (!take_block(engine, memory, columns, problems)) {
+    if (!allocate_block(model, allocator, columns, problems)) {
         return false;
     }
     rope->n = (int64_t)columns - 1;
     rope->m = SENSORS;
     rope->effects = EFFECTS;
     rope->state_size = HISTORIES * (int64_t)columns;
-    divide_block(engine, values, columns);
+    divide_block(model, values, columns);
     memcpy(rope->array[AT_p], p, sizeof p);
     memcpy(rope->array[AT_smooth], p, sizeof p);
     for (size_t k = 0; k < SMOOTH_COUNT; k++) {
@@ -95,21 +95,21 @@ bool engine_prepare(Engine *engine, Memory memory, double *values, Text *problem
     return true;
 }
 
-bool engine_open(Engine *engine, double t, Text *problems)
+bool rope_model_initialize(RopeModel *model, double t, Message *problems)
 {
-    Rope *rope = &engine->rope;
+    Rope *rope = &model->rope;
     if (!fine(rope, rope_reach(rope, t), problems)) {
         return false;
     }
-    memset(engine->block, 0, engine->state_numbers * sizeof(double));
+    memset(model->block, 0, model->state_numbers * sizeof(double));
     rope->array[AT_time][0] = t;
     rope_begin_motion(rope, t);
     return fine(rope, rope_settle(rope, t), problems);
 }
 
-bool engine_step(Engine *engine, double t, double dt, Text *problems)
+bool rope_model_step(RopeModel *model, double t, double dt, Message *problems)
 {
-    Rope *rope = &engine->rope;
+    Rope *rope = &model->rope;
     if (!fine(rope, rope_reach(rope, t), problems)) {
         return false;
     }
@@ -118,16 +118,16 @@ bool engine_step(Engine *engine, double t, double dt, Text *problems)
     return fine(rope, rope_travel(rope, dt), problems);
 }
 
-const double *engine_show(Engine *engine)
+const double *rope_model_outputs(RopeModel *model)
 {
-    rope_show(&engine->rope);
-    return engine->rope.array[AT_y];
+    rope_show(&model->rope);
+    return model->rope.array[AT_y];
 }
 
-void engine_free(Engine *engine, Memory memory)
+void rope_model_free(RopeModel *model, Allocator allocator)
 {
-    if (engine->block) {
-        memory.give_back(engine->block);
+    if (model->block) {
+        allocator.release(model->block);
     }
-    memset(engine, 0, sizeof *engine);
+    memset(model, 0, sizeof *model);
 }

@@ -1,7 +1,7 @@
 /* One rope as the face sees it: opened at rest, stepped, shown, saved. `values` are those of all variables of the
  * model. */
-#ifndef ENGINE_H
-#define ENGINE_H
+#ifndef ROPE_MODEL_H
+#define ROPE_MODEL_H
 
 #include "kernels.h"
 #include "allocator.h"
@@ -15,20 +15,20 @@ typedef struct {
     double *block;
     size_t numbers;
     size_t state_numbers;
-} Engine;
+} RopeModel;
 
 /* Ready the memory for the parameters among the values, which must be in range; it is taken once for one mesh. */
-bool engine_prepare(Engine *engine, Memory memory, double *values, Text *problems);
+bool rope_model_prepare(RopeModel *model, Allocator allocator, double *values, Message *problems);
 
 /* Hang the rope at rest between its ends at the time t [s]. */
-bool engine_open(Engine *engine, double t, Text *problems);
+bool rope_model_initialize(RopeModel *model, double t, Message *problems);
 
 /* Advance from t to t + dt [s]; a step that is lost tells where and when. */
-bool engine_step(Engine *engine, double t, double dt, Text *problems);
+bool rope_model_step(RopeModel *model, double t, double dt, Message *problems);
 
 /* All outputs, in the order of their variables, valid until the next call. */
-const double *engine_show(Engine *engine);
+const double *rope_model_outputs(RopeModel *model);
 
-void engine_free(Engine *engine, Memory memory);
+void rope_model_free(RopeModel *model, Allocator allocator);
 
 #endif

@@ -1,13 +1,13 @@
-/* What the face knows of the model: its variables. model.c, which holds them, is generated from their declarations. */
-#ifndef MODEL_H
-#define MODEL_H
+/* The variables of the model. model.c, which defines them, is generated from their declarations. */
+#ifndef VARIABLES_H
+#define VARIABLES_H
 
 #include <stddef.h>
 
 enum kind { REAL, INTEGER, BOOLEAN, STRING };
 enum role { PARAMETER, INPUT, OUTPUT };
 
-/* One variable; its place in VARIABLES is its value reference. A bound that is not there is infinite. */
+/* One variable; its index in VARIABLES is its value reference. An absent bound is infinite. */
 typedef struct {
     enum kind kind;
     enum role role;
