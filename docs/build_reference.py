@@ -16,6 +16,8 @@ from comprope.rope.parameters import Sensor
 from comprope.rope.runtime.parameter_vector import COMPONENTS, DECLARED
 from comprope.rope.simulator.cosimulation import interface as rope_interface
 from comprope_system.identification.data.campaign import CampaignFile, Channel, RunSpec
+from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
+from comprope_system.identification.settings import GROUPS, settings_of
 from comprope_system.measurements.run_table import UNITS
 from comprope_system.presets import model_path
 from comprope_system.simulation.result_columns import columns
@@ -44,7 +46,7 @@ def text() -> str:
     rope, drive = rope_interface(load(model_path("tower50"))), drive_interface()
     parts = [
         TITLE, _symbols(rope), _model_file(), _effects(), _campaign(), _columns(),
-        _fmu("The rope's FMU", rope), _fmu("The drive's FMU", drive), _drive(),
+        _fmu("The rope's FMU", rope), _fmu("The drive's FMU", drive), _drive(), _plant_priors(), _settings(),
     ]  # fmt: skip
     return "\n".join(parts)
 
@@ -106,6 +108,45 @@ def _drive() -> str:
         "`a19`: accelerations at twentieths of the travel time, over the largest, for trips of a free shape."
     )
     return "\n".join([f"## Drive file\n\n{said}\n", *tables])
+
+
+def _plant_priors() -> str:
+    intro = (
+        "Plant parameters that every fit of the identification adjusts, with the standard deviation of the prior: of the "
+        "parameter's logarithm where it is relative, else in the unit of the parameter."
+    )
+    rows = [
+        (
+            f"`{one.name}`",
+            f"{one.prior:g}",
+            "relative" if one.relative else "absolute",
+            f"{one.lower:g} … {one.upper:g}",
+            one.origin,
+        )
+        for one in PLANT_PARAMETERS
+    ]
+    return _section("Plant parameters and their priors", intro, ("parameter", "prior", "", "bounds", "origin"), rows)
+
+
+def _settings() -> str:
+    intro = (
+        "Constants of comparison, diagnosis and model updating, in `comprope_system.identification.settings`: what each decides "
+        "and where its value comes from. They are part of the method and not meant to be set for a campaign."
+    )
+    tables = [
+        f"### {type(group).__name__}\n\n{_said(type(group))}"
+        + _table(
+            ("constant", "value", "unit", "decides", "origin"),
+            [(f"`{one.name}`", _shown(one.value), "" if one.unit == "1" else one.unit, one.decides, one.origin)
+             for one in settings_of(group)],
+        )
+        for group in GROUPS
+    ]  # fmt: skip
+    return "\n".join([f"## Constants of the identification\n\n{intro}\n", *tables])
+
+
+def _shown(value: object) -> str:
+    return ", ".join(f"{one:g}" for one in value) if isinstance(value, tuple) else f"{value:g}"
 
 
 def _fmu(title: str, interface: ModelInterface) -> str:

@@ -5,14 +5,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..data.whitening import MEMORY
-from .paired_records import LEAST, VISIBLE, Record, by_column
+from ..settings import CLOCK_OFFSET, PAIRED_RECORDS, WHITENING
+from .paired_records import Record, by_column
 
 Floats = NDArray[np.float64]
-FARTHEST = 1.0  # s, largest clock offset looked for
-LEAST_DELAY = 0.012  # s, least clock offset told
-UNSURE = 0.01  # s by which a model's own error may shift a channel
-ALIKE = 0.85  # correlation at best that a delay needs to be read
 
 
 def clock(records: Sequence[Record]) -> Iterator[str]:
@@ -25,9 +21,9 @@ def clock(records: Sequence[Record]) -> Iterator[str]:
         return
     late, deviation = np.array(found).T
     common = float(np.average(late, weights=deviation**-2.0))
-    agree = np.abs(late - common) < 3.0 * deviation + UNSURE
+    agree = np.abs(late - common) < 3.0 * deviation + CLOCK_OFFSET.model_uncertainty
     sure = np.abs(late) > 3.0 * deviation
-    if abs(common) > LEAST_DELAY and agree.all() and sure.sum() >= 2:
+    if abs(common) > CLOCK_OFFSET.min_offset and agree.all() and sure.sum() >= 2:
         word = "late" if common > 0.0 else "early"
         yield (
             f"all channels are {1e3 * abs(common):.0f} ms {word} against the car's position: "
@@ -49,25 +45,27 @@ def pooled_delay(group: Sequence[Record]) -> tuple[float, float] | None:
 def delay(record: Record) -> tuple[float, float] | None:
     """How late [s] a channel follows its prediction, and the standard deviation of that; None where they are never alike.
 
-    That is where both are most alike; what is left there counts as noise that is new every MEMORY seconds.
+    That is where both are most alike; what is left there counts as noise that is new every WHITENING.discrepancy_time seconds.
     """
     both = record.both
-    if both.sum() < 5 * LEAST or np.std(record.measured[both]) < VISIBLE * record.noise:
+    if both.sum() < 5 * PAIRED_RECORDS.min_samples or np.std(record.measured[both]) < PAIRED_RECORDS.min_variation * record.noise:
         return None
     t = record.run.time[both]
     step = max(float(np.median(np.diff(t))), 2e-3)
     grid = np.arange(t[0], t[-1], step)
     m, p = (np.interp(grid, t, values[both]) for values in (record.measured, record.predicted))
     m, p = m - m.mean(), p - p.mean()
-    reach = min(int(FARTHEST / step), len(grid) // 4)
+    reach = min(int(CLOCK_OFFSET.max_offset / step), len(grid) // 4)
     found = np.array([_correlation(m, p, k) for k in range(-reach, reach + 1)])
     best = int(np.argmax(found))
-    if found[best] < ALIKE or best in (0, len(found) - 1):
+    if found[best] < CLOCK_OFFSET.min_correlation or best in (0, len(found) - 1):
         return None
     low, top, high = found[best - 1 : best + 2]
     late = step * (best - reach + 0.5 * (low - high) / (low - 2.0 * top + high))
     left = float(np.std(m)) * max(1.0 - top**2, 0.0) ** 0.5
-    return late, max(left / float(np.std(np.gradient(p, grid))) / float((grid[-1] - grid[0]) / MEMORY) ** 0.5, 1e-3)
+    return late, max(
+        left / float(np.std(np.gradient(p, grid))) / float((grid[-1] - grid[0]) / WHITENING.discrepancy_time) ** 0.5, 1e-3
+    )
 
 
 def _correlation(m: Floats, p: Floats, late: int) -> float:

@@ -19,12 +19,11 @@ from ..data.trip_phases import phases
 from ..data.whitening import sample_noise
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
 from ..prediction.replay import relative_to_rest
-from .error_metrics import BANDS, LEAST, ORDERS, SpragueGeers, by_band, by_bins, by_order, rms, sprague_geers
+from ..settings import COMPARISON
+from .error_metrics import ORDERS, SpragueGeers, by_band, by_bins, by_order, rms, sprague_geers
 from .nrmse import nrmse, overall, trusted
 
 Floats = NDArray[np.float64]
-PLACES = 10  # bins of the car's position over the shaft's height
-ENOUGH = 1.2  # chi-square per sample below which there is nothing left to explain
 
 
 @dataclass(frozen=True)
@@ -65,7 +64,10 @@ class ChannelComparison:
             "sprague_geers": asdict(self.sprague_geers) | {"combined": self.sprague_geers.combined},
             "by_phase": self.by_phase,
             "by_car_position": list(self.by_place),
-            "by_frequency": [{"from": a, "to": b, "nrmse": e} for (a, b), e in zip(pairwise(BANDS), self.by_band, strict=True)],
+            "by_frequency": [
+                {"from": a, "to": b, "nrmse": e}
+                for (a, b), e in zip(pairwise(COMPARISON.frequency_bands), self.by_band, strict=True)
+            ],
             "by_order": peaks,
         }  # fmt: skip
         return plain(found)
@@ -115,7 +117,7 @@ class Comparison:
             "campaign": self.campaign.name, "runs": [one.to_json() for one in self.runs], "nrmse": self.nrmse,
             "fit_nrmse": self.fit_nrmse, "validate_nrmse": self.validate_nrmse, "chi_square_per_sample": self.chi_square,
             "noise_nrmse": {"fit": self.floor("fit"), "validate": self.floor("validate")},
-            "car_position_edges": list(np.linspace(0.0, height, PLACES + 1)),
+            "car_position_edges": list(np.linspace(0.0, height, COMPARISON.position_bins + 1)),
         }  # fmt: skip
         return plain(found)
 
@@ -163,7 +165,7 @@ def _channel(run: Run, channel: Channel, measured: Floats, predicted: Floats, an
     noise = sample_noise(run, channel, measured)
     both = trusted(measured, predicted, noise)
     t, m, p = run.time[both], measured[both], predicted[both]
-    if both.sum() < LEAST:
+    if both.sum() < COMPARISON.min_samples:
         return _nothing(channel, t, m, p, noise)
     residual, variation = m - p, max(float(np.std(m)), 1e-12)
     moving = np.abs(run.trip.velocity(t)) > 0.0
@@ -173,7 +175,7 @@ def _channel(run: Run, channel: Channel, measured: Floats, predicted: Floats, an
         chi_square=float(np.mean((residual / noise) ** 2)),
         sprague_geers=sprague_geers(m, p),
         by_phase=_scaled({name: rms(residual[mask]) for name, mask in phases(run.trip, t).items()}, variation),
-        by_place=by_bins(run.trip.position(t), residual, np.linspace(0.0, height, PLACES + 1)) / variation,
+        by_place=by_bins(run.trip.position(t), residual, np.linspace(0.0, height, COMPARISON.position_bins + 1)) / variation,
         by_band=by_band(t, residual) / variation,
         orders=by_order(np.abs(angle[both][moving]), residual[moving]),
     )  # fmt: skip
@@ -182,7 +184,7 @@ def _channel(run: Run, channel: Channel, measured: Floats, predicted: Floats, an
 def _nothing(channel: Channel, t: Floats, m: Floats, p: Floats, noise: float) -> ChannelComparison:
     """A channel that holds too little to say anything."""
     none, few = float("nan"), SpragueGeers(float("nan"), float("nan"))
-    unknown = (np.full(count, np.nan) for count in (PLACES, len(BANDS) - 1, len(ORDERS)))
+    unknown = (np.full(count, np.nan) for count in (COMPARISON.position_bins, len(COMPARISON.frequency_bands) - 1, len(ORDERS)))
     return ChannelComparison(channel.column, channel, t, m, p, none, none, noise, none, few, {}, *unknown)
 
 

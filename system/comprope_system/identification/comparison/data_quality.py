@@ -12,10 +12,9 @@ from ..data.campaign import Campaign, Run
 from ..data.trip_phases import phases
 from ..data.whitening import outliers
 from ..prediction.parameter_point import Predictions
+from ..settings import DATA_QUALITY, PAIRED_RECORDS
 from .clock_offset import clock
-from .paired_records import LEAST, Record, by_column, records_of
-
-ALIKE = 0.7  # correlation of measured and predicted values required for a message about sign or unit
+from .paired_records import Record, by_column, records_of
 
 
 def remarks(campaign: Campaign, predictions: Predictions, plain: Predictions | None = None) -> list[str]:
@@ -37,7 +36,7 @@ def remarks(campaign: Campaign, predictions: Predictions, plain: Predictions | N
 def sign(group: Sequence[Record]) -> Iterator[str]:
     """A channel that is anticorrelated with the model in every run."""
     seen = [one.gain() for one in group if np.isfinite(one.gain()[0])]
-    if seen and max(c for _, c in seen) < 0.0 and min(c for _, c in seen) < -ALIKE:
+    if seen and max(c for _, c in seen) < 0.0 and min(c for _, c in seen) < -DATA_QUALITY.min_correlation:
         name = group[0].channel.column
         gain = float(np.median([g for g, _ in seen]))
         yield f"{name}: anticorrelated with the model in every run (gain {gain:.2f}): its sign is probably wrong"
@@ -45,7 +44,7 @@ def sign(group: Sequence[Record]) -> Iterator[str]:
 
 def unit(group: Sequence[Record]) -> Iterator[str]:
     """A channel whose amplitude indicates another unit or another power of ten."""
-    seen = [abs(one.gain()[0]) for one in group if abs(one.gain()[1]) > ALIKE]
+    seen = [abs(one.gain()[0]) for one in group if abs(one.gain()[1]) > DATA_QUALITY.min_correlation]
     if not seen or max(seen) > 1.5 * min(seen):
         return
     gain, channel = float(np.median(seen)), group[0].channel
@@ -88,8 +87,8 @@ def pooled_slope(group: Sequence[Record], phase: str) -> tuple[float, float]:
     found = []
     for one in group:
         mask = phases(one.run.trip, one.run.time)[phase] & one.both
-        mask[mask] = ~outliers(one.measured[mask], one.noise) if mask.sum() >= LEAST else False
-        if mask.sum() >= LEAST:
+        mask[mask] = ~outliers(one.measured[mask], one.noise) if mask.sum() >= PAIRED_RECORDS.min_samples else False
+        if mask.sum() >= PAIRED_RECORDS.min_samples:
             t = one.run.time[mask] - one.run.time[mask].mean()
             x = one.measured[mask] - one.predicted[mask]
             found.append((float(t @ x / (t @ t)), one.noise / float(np.sqrt(t @ t))))
@@ -105,7 +104,7 @@ def far_out(group: Sequence[Record]) -> Iterator[str]:
     counts = {}
     for one in group:
         known = one.measured[np.isfinite(one.measured)]
-        if len(known) >= LEAST and (count := int(outliers(known, one.noise).sum())):
+        if len(known) >= PAIRED_RECORDS.min_samples and (count := int(outliers(known, one.noise).sum())):
             counts[one.run.file] = count
     if counts:
         numbers = ", ".join(f"{count} in {file}" for file, count in counts.items())
@@ -119,7 +118,7 @@ def gaps(group: Sequence[Record]) -> Iterator[str]:
         holes, seen = np.isnan(one.measured), np.isfinite(one.predicted)
         if (share := float(np.mean(holes[seen]))) > 0.002 if seen.any() else False:
             missing[one.run.file] = share
-        if (share := float(np.mean(~holes[~seen]))) > 0.5 if (~seen).sum() >= LEAST else False:
+        if (share := float(np.mean(~holes[~seen]))) > 0.5 if (~seen).sum() >= PAIRED_RECORDS.min_samples else False:
             extra[one.run.file] = share
     name = group[0].channel.column
     if missing:

@@ -7,11 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lombscargle, periodogram
 
+from ..settings import COMPARISON
+
 Floats = NDArray[np.float64]
-BANDS = (0.0, 0.2, 0.5, 1.0, 2.0, 5.0, float("inf"))  # Hz
-ORDERS = np.arange(0.2, 6.01, 0.05)  # periods in one turn of the sheave
-TURNS = 1.5  # of the sheave that an order spectrum needs
-LEAST = 20  # samples that any measure needs
+ORDERS = np.arange(*COMPARISON.orders)  # periods in one turn of the sheave
 
 
 @dataclass(frozen=True)
@@ -45,20 +44,22 @@ def rms(values: Floats) -> float:
 
 
 def by_bins(place: Floats, residual: Floats, edges: Floats) -> Floats:
-    """Root mean square of `residual` in each bin of `place`; NaN where fewer than LEAST samples lie."""
+    """Root mean square of `residual` in each bin of `place`; NaN where too few samples lie."""
     index = np.digitize(place, edges[1:-1])
-    return np.array([rms(residual[index == k]) if (index == k).sum() >= LEAST else np.nan for k in range(len(edges) - 1)])
+    return np.array(
+        [rms(residual[index == k]) if (index == k).sum() >= COMPARISON.min_samples else np.nan for k in range(len(edges) - 1)]
+    )
 
 
 def by_band(time: Floats, residual: Floats) -> Floats:
-    """Root mean square of a residual (n,) at `time` [s] within each of BANDS, from its longest stretch without a gap."""
+    """Root mean square of a residual (n,) at `time` [s] within each band, from its longest stretch without a gap."""
     t, x = longest_stretch(time, residual)
-    if len(t) < LEAST:
-        return np.full(len(BANDS) - 1, np.nan)
+    if len(t) < COMPARISON.min_samples:
+        return np.full(len(COMPARISON.frequency_bands) - 1, np.nan)
     even = np.linspace(t[0], t[-1], len(t))
     frequency, power = periodogram(np.interp(even, t, x), 1.0 / (even[1] - even[0]), detrend=False, scaling="spectrum")
-    band = np.digitize(frequency, BANDS[1:-1])
-    return np.sqrt(np.bincount(band, power, len(BANDS) - 1))
+    band = np.digitize(frequency, COMPARISON.frequency_bands[1:-1])
+    return np.sqrt(np.bincount(band, power, len(COMPARISON.frequency_bands) - 1))
 
 
 def longest_stretch(time: Floats, values: Floats) -> tuple[Floats, Floats]:
@@ -78,7 +79,7 @@ def by_order(angle: Floats, residual: Floats, orders: Floats = ORDERS) -> Floats
 
     An order of k is k periods in each turn: eccentricity is of order 1, a rope's strands of a high one.
     """
-    if len(angle) < LEAST or np.ptp(angle) < 2.0 * np.pi * TURNS:
+    if len(angle) < COMPARISON.min_samples or np.ptp(angle) < 2.0 * np.pi * COMPARISON.min_turns:
         return np.full(len(orders), np.nan)
     centred = residual - residual.mean()
     power = lombscargle(angle, centred, orders)

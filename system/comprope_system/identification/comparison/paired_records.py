@@ -11,10 +11,9 @@ from ..data.campaign import Campaign, Channel, Run
 from ..data.whitening import sample_noise
 from ..prediction.parameter_point import Predictions
 from ..prediction.replay import relative_to_rest
+from ..settings import PAIRED_RECORDS
 
 Floats = NDArray[np.float64]
-VISIBLE = 3.0  # times the noise that a channel must vary by to be judged
-LEAST = 30  # samples
 
 
 @dataclass(frozen=True)
@@ -39,10 +38,10 @@ class Record:
     def gain(self) -> tuple[float, float]:
         """Measured over predicted variation, and their correlation; (nan, 0) where there is too little to see."""
         both = self.both
-        if both.sum() < LEAST:
+        if both.sum() < PAIRED_RECORDS.min_samples:
             return float("nan"), 0.0
         m, p = self.measured[both] - self.measured[both].mean(), self.predicted[both] - self.predicted[both].mean()
-        if np.std(m) < VISIBLE * self.noise or np.std(p) == 0.0:
+        if np.std(m) < PAIRED_RECORDS.min_variation * self.noise or np.std(p) == 0.0:
             return float("nan"), 0.0
         return float((m @ p) / (p @ p)), float((m @ p) / np.sqrt((m @ m) * (p @ p)))
 

@@ -19,13 +19,13 @@ from comprope.validation_messages import problems
 
 from ...measurements import Trip
 from ...measurements.run_table import UNITS, read_table, read_trips
+from ..settings import TRIP_PHASES
 
 Floats = NDArray[np.float64]
 Quantity = Literal[
     "lateral_displacement", "sheave_displacement", "sheave_angular_velocity", "sheave_force",
     "car_end_tension", "counterweight_end_tension",
 ]  # fmt: skip
-LEAST_REST = 0.2  # s of rest before a trip that a mean "at rest" needs
 
 
 class Channel(Component):
@@ -82,7 +82,7 @@ class Run:
     @property
     def rest(self) -> NDArray[np.bool_]:
         """Which samples lie before the trip."""
-        return np.asarray(self.time <= max(self.trip.rest_before, self.time[0] + LEAST_REST))
+        return np.asarray(self.time <= max(self.trip.rest_before, self.time[0] + TRIP_PHASES.rest_duration))
 
 
 @dataclass(frozen=True)

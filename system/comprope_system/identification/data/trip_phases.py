@@ -4,11 +4,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...measurements import Trip
+from ..settings import TRIP_PHASES
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 PHASES = ("rest", "acceleration", "cruise", "deceleration", "after_stop")
-AT_SPEED = 0.99  # of the top speed: above it a trip counts as at speed
 
 
 def phases(trip: Trip, time: Floats) -> dict[str, Mask]:
@@ -17,7 +17,7 @@ def phases(trip: Trip, time: Floats) -> dict[str, Mask]:
     Speed decides, not acceleration, which a recovered trip knows less well.
     """
     speed = np.abs(trip.velocity(time))
-    fast = np.flatnonzero(speed >= AT_SPEED * speed.max()) if speed.any() else np.array([len(time), -1])
+    fast = np.flatnonzero(speed >= TRIP_PHASES.cruise_speed * speed.max()) if speed.any() else np.array([len(time), -1])
     before, index = time <= trip.rest_before, np.arange(len(time))
     if not speed.any():
         before = np.ones(len(time), bool)

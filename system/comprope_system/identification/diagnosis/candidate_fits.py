@@ -10,7 +10,7 @@ from comprope.errors import SimulationError
 
 from ..estimation.gauss_newton import FitResult, gauss_newton
 from ..estimation.initial_guess import best_initial_guess
-from ..estimation.mass_search import LEFT, search_rope_mass
+from ..estimation.mass_search import search_rope_mass
 from ..estimation.model_score import complexity_penalty, log_score
 from ..estimation.weighted_least_squares import LeastSquaresProblem
 from ..hypotheses.effect_hypotheses import Hypothesis, combine
@@ -18,18 +18,8 @@ from ..hypotheses.model_effects import shape_hypotheses
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
 from ..progress import ProgressCallback
+from ..settings import CANDIDATES, MASS_SEARCH
 from .linear_screening import ScreenedHypothesis, indistinguishable, screen_hypotheses
-
-REFINED = 4  # hypotheses that are refined on the full model, if no other one leads
-RIVAL = 1.2  # times the best fit's misfit above which a fit is not worth its time
-PROMISING = 0.1  # of what the best linear look explains: the least that is worth a fit
-NOTICED = 0.01  # of misfit per datum: less than that is no reason for a fit
-SECOND = 0.85  # of the misfit that the best effect may leave if a second one is to be looked for
-CHALLENGERS = 2  # effects seen from elsewhere that are refined
-PROMISED = 0.7  # of the best fit's misfit: what they must promise
-PAIRS = 2  # second effects that are refined with the first
-NEAR = 1.15  # times the best fit's misfit: near enough to it
-WORTH = 0.97  # of its misfit that it must fall to
 
 
 class CandidateFit(NamedTuple):
@@ -65,10 +55,10 @@ def fit_candidates(
 
     A linear look alone does not win: whichever leads is fitted as well, until what leads is a fit.
     """
-    worth = NOTICED * len(problem.data)
+    worth = CANDIDATES.min_improvement * len(problem.data)
     found = [_from_screening(one, baseline) for one in screened]
-    least = max(PROMISING * (baseline.penalised_chi_square - found[0].fitted.penalised_chi_square), worth)
-    for k, one in enumerate(screened[:REFINED]):
+    least = max(CANDIDATES.min_share * (baseline.penalised_chi_square - found[0].fitted.penalised_chi_square), worth)
+    for k, one in enumerate(screened[: CANDIDATES.max_fits]):
         if baseline.penalised_chi_square - found[k].fitted.penalised_chi_square > least and _may_win(found[k], baseline, found):
             found[k] = _on_full_model(problem, origin, one, baseline, found, report_progress)
     leader = _leader(found, len(problem.data))
@@ -106,8 +96,8 @@ def refit_from_other_masses(
 ) -> list[CandidateFit]:
     """The trials, or better ones of the same effects that begin where `screened` saw them."""
     trials = {one.hypothesis.effect: one for one in found}
-    for one in screened[:CHALLENGERS]:
-        if one.chi_square < PROMISED * least_chi_square(trials.values(), baseline):
+    for one in screened[: CANDIDATES.max_mass_fits]:
+        if one.chi_square < CANDIDATES.mass_improvement * least_chi_square(trials.values(), baseline):
             trial = _finished(
                 problem, origin, _on_full_model(problem, origin, one, baseline, list(trials.values()), report_progress)
             )
@@ -129,8 +119,10 @@ def least_chi_square(found: Iterable[CandidateFit], baseline: FitResult) -> floa
 
 def _may_win(one: CandidateFit, baseline: FitResult, found: Sequence[CandidateFit]) -> bool:
     """Whether an effect that explains half as much again as its linear look has it would come near the best fit so far."""
-    at_best = one.fitted.penalised_chi_square - 0.5 * (baseline.penalised_chi_square - one.fitted.penalised_chi_square)
-    return at_best < NEAR * min(
+    at_best = one.fitted.penalised_chi_square - CANDIDATES.optimism * (
+        baseline.penalised_chi_square - one.fitted.penalised_chi_square
+    )
+    return at_best < CANDIDATES.near_factor * min(
         (trial.fitted.penalised_chi_square for trial in found if trial.refined), default=baseline.penalised_chi_square
     )
 
@@ -157,7 +149,9 @@ def _on_full_model(
 ) -> CandidateFit:
     """The effect fitted; one that cannot be simulated explains nothing. A fit ends early once it cannot come near the best."""
     report_progress(f"{one.hypothesis.effect}, on the full model")
-    abandon_above = RIVAL * min((trial.fitted.chi_square for trial in found if trial.refined), default=float("inf"))
+    abandon_above = CANDIDATES.abandon_factor * min(
+        (trial.fitted.chi_square for trial in found if trial.refined), default=float("inf")
+    )
     try:
         start = best_initial_guess(problem, one.hypothesis, one.start, origin, baseline, expected=one.chi_square)
         fitted = free_shape_parameters(
@@ -178,11 +172,11 @@ def fit_pair(
 ) -> CandidateFit | None:
     """The best effect with a second one, both fitted together; None where the best explains too little to begin with."""
     first = min((one.fitted for one in found if one.refined), key=lambda one: one.chi_square, default=None)
-    if first is None or first.hypothesis is None or first.chi_square > SECOND * baseline.chi_square:
+    if first is None or first.hypothesis is None or first.chi_square > CANDIDATES.pair_threshold * baseline.chi_square:
         return None
     report_progress(f"{first.hypothesis.effect} and a second effect, linearised")
     screened = screen_hypotheses(problem, first.point, first)
-    pairs = [pair for one in screened[:PAIRS] if (pair := _pair(problem, origin, first, one, report_progress))]
+    pairs = [pair for one in screened[: CANDIDATES.max_pairs] if (pair := _pair(problem, origin, first, one, report_progress))]
     best = min(pairs, key=lambda one: one.fitted.chi_square, default=None)
     return best and _finished(problem, origin, best)
 
@@ -212,8 +206,8 @@ def free_shape_parameters(
     """The fit with what shapes its effects free as well (a frequency, a yield curvature), where more than noise is left."""
     assert fitted.hypothesis is not None
     shapes = shape_hypotheses(fitted.hypothesis.parts or (fitted.hypothesis,), problem.longest)
-    if not shapes or not LEFT * len(problem.data) < fitted.chi_square < abandon_above:
+    if not shapes or not MASS_SEARCH.adequate * len(problem.data) < fitted.chi_square < abandon_above:
         return fitted
     whole = replace(combine(fitted.hypothesis, *shapes), effect=fitted.hypothesis.effect)
     freed = gauss_newton(problem, whole, np.concatenate([fitted.coefficients, np.zeros(len(shapes))]), origin, abandon_above)
-    return freed if freed.chi_square < WORTH * fitted.chi_square else fitted
+    return freed if freed.chi_square < CANDIDATES.shape_improvement * fitted.chi_square else fitted

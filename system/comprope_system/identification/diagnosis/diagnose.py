@@ -20,16 +20,11 @@ from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
 from ..progress import ProgressCallback, no_progress
+from ..settings import CANDIDATES, VERDICT
 from .candidate_fits import CandidateFit, fit_candidates, fit_pair, least_chi_square, refit_from_other_masses
 from .linear_screening import ScreenedHypothesis, indistinguishable, screen_at_other_masses, screen_hypotheses
 
 Floats = NDArray[np.float64]
-
-UNEXPLAINED = 0.04  # of the misfit that is too much: what "none of the known effects" stands for
-UNKNOWN = 10.0  # its price
-COMMON = 1.06  # misfit per datum that a model with the right effect may leave
-USUAL = 5.0  # strain of a plant whose data sheets are as good as usual
-MUCH = 2.0  # misfit per datum of the best fit above which effects are looked at from other masses as well
 
 
 @dataclass(frozen=True)
@@ -83,7 +78,7 @@ def diagnose(
     baseline = fit_with_mass_search(problem, initial_fit, origin)
     report_progress("every effect, linearised")
     found = fit_candidates(problem, origin, screen_hypotheses(problem, origin, baseline, initial_fit), baseline, report_progress)
-    if least_chi_square(found, baseline) > MUCH * len(problem.data):
+    if least_chi_square(found, baseline) > CANDIDATES.mass_threshold * len(problem.data):
         report_progress("every effect, from other masses of the rope")
         found = refit_from_other_masses(
             problem, origin, screen_at_other_masses(problem, origin, initial_fit), baseline, found, report_progress
@@ -116,9 +111,13 @@ def _unknown(baseline: FitResult, found: list[CandidateFit], count: int) -> floa
     left, bent = 1.0, baseline.prior_cost
     known = max(found, key=lambda one: one.log_score(count), default=None)
     if known and known.log_score(count) > log_score(baseline.chi_square, count, baseline.prior_cost):
-        left, bent = min(known.fitted.chi_square / count, COMMON), known.fitted.prior_cost
+        left, bent = min(known.fitted.chi_square / count, VERDICT.unknown_chi_square), known.fitted.prior_cost
     excess = max(baseline.chi_square / count - 1.0, 0.0)
-    return log_score(count * max(left, 1.0 + UNEXPLAINED * excess), count, UNKNOWN + min(bent, USUAL))
+    return log_score(
+        count * max(left, 1.0 + VERDICT.unknown_share * excess),
+        count,
+        VERDICT.unknown_penalty + min(bent, VERDICT.unknown_prior_cost),
+    )
 
 
 def _candidate(one: CandidateFit, scores: dict[str, float], probabilities: dict[str, float], count: int) -> Candidate:
@@ -139,7 +138,7 @@ def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) ->
 
 def _least(one: ScreenedHypothesis, count: int) -> dict[str, float]:
     """Least size of each parameter that these data would show: a misfit raised by three tenths."""
-    sizes = np.sqrt(0.3 * count) / np.maximum(np.linalg.norm(one.orthogonal_part, axis=0), 1e-300)
+    sizes = np.sqrt(VERDICT.detection_increase * count) / np.maximum(np.linalg.norm(one.orthogonal_part, axis=0), 1e-300)
     return {
         key: float(size * abs(amount))
         for size, direction in zip(sizes, one.hypothesis.directions, strict=False)

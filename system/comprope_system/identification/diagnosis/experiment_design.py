@@ -18,15 +18,10 @@ from ..data.campaign import Campaign, Run
 from ..data.whitening import whiten_channel
 from ..estimation.gauss_newton import FitResult
 from ..prediction.parameter_point import collect_predictions, submit_replays
+from ..settings import EXPERIMENTS
 from .diagnose import Diagnosis
 
 Floats = NDArray[np.float64]
-WEIGHTS = (0.5, 1.0, 1.5)  # of the sheave's
-SHARES = (0.9, 0.4)  # of the shaft's height
-SPEEDS = (1.0, 0.6)  # of the speed of the runs there are
-BEFORE, AFTER = 2.0, 6.0  # s at rest
-SAMPLING = 0.02  # s
-SURE = 0.95  # probability above which no further run is asked for
 
 
 @dataclass(frozen=True)
@@ -55,7 +50,9 @@ class ProposedRun:
 
 def is_inconclusive(diagnosis: Diagnosis) -> bool:
     """Whether another run could change the verdict."""
-    return (diagnosis.kind != "adequate" and max(diagnosis.probabilities.values()) < SURE) or diagnosis.kind == "unknown_effect"
+    return (
+        diagnosis.kind != "adequate" and max(diagnosis.probabilities.values()) < EXPERIMENTS.conclusive_probability
+    ) or diagnosis.kind == "unknown_effect"
 
 
 def best_two_fits(diagnosis: Diagnosis) -> tuple[tuple[str, FitResult], tuple[str, FitResult]] | None:
@@ -93,10 +90,10 @@ def candidate_runs(campaign: Campaign) -> list[tuple[ProposedRun, Run]]:
     top = max(float(np.abs(run.trip.velocity(run.time)).max()) for run in campaign.runs)
     pull = max(float(np.abs(run.trip.acceleration(run.time)).max()) for run in campaign.runs)
     found = []
-    for weight, share, speed, up in product(WEIGHTS, SHARES, SPEEDS, (True, False)):
+    for weight, share, speed, up in product(EXPERIMENTS.weights, EXPERIMENTS.distances, EXPERIMENTS.speeds, (True, False)):
         reach = min(share * height, highest - lowest)
         ends = (lowest, lowest + reach) if up else (highest, highest - reach)
-        one = ProposedRun(weight, *ends, min(speed * top, (0.6 * pull * reach) ** 0.5), 0.0)
+        one = ProposedRun(weight, *ends, min(speed * top, (EXPERIMENTS.acceleration_share * pull * reach) ** 0.5), 0.0)
         found.append((one, _run(campaign, one, pull)))
     return found
 
@@ -105,8 +102,8 @@ def _run(campaign: Campaign, one: ProposedRun, pull: float) -> Run:
     ramp, way = one.speed / pull, abs(one.end - one.start)
     cruise = way / one.speed - 1.5 * ramp
     phases = np.array([0.5 * ramp, 0.5 * ramp, 0.5 * ramp, cruise, 0.5 * ramp, 0.5 * ramp, 0.5 * ramp])
-    trip = Trip((jerk_limited(one.start, one.end - one.start, BEFORE, phases),), 0.0, "profile")
-    time = np.arange(0.0, trip.rest_after + AFTER, SAMPLING)
+    trip = Trip((jerk_limited(one.start, one.end - one.start, EXPERIMENTS.rest_before, phases),), 0.0, "profile")
+    time = np.arange(0.0, trip.rest_after + EXPERIMENTS.rest_after, EXPERIMENTS.sampling_interval)
     base = values_of(campaign.model)
     changes: dict[str, Any] = {"sheave.mass": one.weight * base["sheave.mass"]}
     if any("sheave.inertia" in run.changes for run in campaign.runs):
@@ -130,4 +127,4 @@ def _distance(campaign: Campaign, run: Run, a: dict[tuple[str, str], Floats], b:
 def _noise(campaign: Campaign, column: str) -> float:
     """A channel's noise in its unit where none is stated: a hundredth of how it varies."""
     spread: Sequence[float] = [float(np.nanstd(run.values[column])) for run in campaign.runs]
-    return max(0.01 * float(np.median(spread)) / campaign.channels[column].scale, 1e-9)
+    return max(EXPERIMENTS.assumed_noise * float(np.median(spread)) / campaign.channels[column].scale, 1e-9)

@@ -20,14 +20,12 @@ from ..estimation.gauss_newton import FitResult
 from ..estimation.linearisation import fit_directions
 from ..estimation.weighted_least_squares import LeastSquaresProblem
 from ..prediction.parameter_point import Predictions, run_at_point
-from ..prediction.replay import STEP, relative_to_rest
+from ..prediction.replay import relative_to_rest
 from ..prediction.replay_sensitivities import replay_with_sensitivities
+from ..settings import FREQUENCIES, REPLAY
 
 Floats = NDArray[np.float64]
 EFFECT = "building_sway"
-LOWEST, HIGHEST = 0.05, 1.5  # Hz
-SPACING = 0.5  # of a period over the longest record
-MOST = 3
 
 
 def sway_frequencies(problem: LeastSquaresProblem, fitted: FitResult, coarse: float) -> tuple[float, ...]:
@@ -35,7 +33,7 @@ def sway_frequencies(problem: LeastSquaresProblem, fitted: FitResult, coarse: fl
     campaign = problem.campaign
     if EFFECT not in names_of(campaign.model):
         return ()
-    grid = np.arange(LOWEST, HIGHEST, SPACING / problem.longest)
+    grid = np.arange(FREQUENCIES.sway_lowest, FREQUENCIES.sway_highest, FREQUENCIES.sway_spacing / problem.longest)
     jobs = []
     for run in problem.runs:
         there = run_at_point(campaign.model, run, problem.with_held_fixed(fitted.point), coarse)
@@ -46,7 +44,7 @@ def sway_frequencies(problem: LeastSquaresProblem, fitted: FitResult, coarse: fl
     except SimulationError:  # elements or steps too long for this rope
         return ()
     peaks, _ = find_peaks(found)
-    return tuple(round(_top(grid, found, k), 4) for k in sorted(peaks, key=lambda k: -found[k])[:MOST])
+    return tuple(round(_top(grid, found, k), 4) for k in sorted(peaks, key=lambda k: -found[k])[: FREQUENCIES.sway_count])
 
 
 def _top(grid: Floats, found: Floats, k: int) -> float:
@@ -67,7 +65,7 @@ def responses(
     amplitude, frequency, phase = (f"effects.{EFFECT}.{name}" for name in ("amplitude", "frequency", "phase"))
     at = {f"{k}.{turn}": {frequency: float(f), phase: 0.5 * pi * turn} for k, f in enumerate(grid) for turn in (0, 1)}
     directions = {name: {amplitude: 1.0} for name in at}
-    _, by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at)
+    _, by = replay_with_sensitivities(model, run, channels, directions, coarse * REPLAY.time_step, at)
     columns = [np.concatenate([one.whiten(one.means(by[name][one.column])) for one in whitened_channels]) for name in at]
     return np.column_stack(columns).reshape(-1, len(grid), 2)
 
@@ -83,7 +81,9 @@ def explained(problem: LeastSquaresProblem, fitted: FitResult, responses: Sequen
         for j, (rows, of_run) in enumerate(zip(problem.rows_of_runs, responses, strict=True)):
             columns[:count][rows, 2 * j : 2 * j + 2] = of_run[:, k]
         columns = _orthogonal_to(plant, columns)
-        found.append(float(left @ columns @ np.linalg.lstsq(columns.T @ columns, columns.T @ left, rcond=1e-9)[0]))
+        found.append(
+            float(left @ columns @ np.linalg.lstsq(columns.T @ columns, columns.T @ left, rcond=FREQUENCIES.sway_cutoff)[0])
+        )
     return np.array(found)
 
 
@@ -92,23 +92,19 @@ def _orthogonal_to(plant: Floats, columns: Floats) -> Floats:
     return np.asarray(columns - plant @ (plant.T @ columns))
 
 
-MOST_PEAKS = 3
-LOWEST_PEAK, HIGHEST_PEAK = 0.05, 3.0  # Hz
-
-
 def residual_peak_frequencies(problem: LeastSquaresProblem, predictions: Predictions) -> tuple[float, ...]:
     """The frequencies [Hz] of the highest peaks in the residual of the lateral channels, over all runs."""
-    grid = np.linspace(LOWEST_PEAK, HIGHEST_PEAK, 600)
+    grid = np.linspace(FREQUENCIES.peak_lowest, FREQUENCIES.peak_highest, FREQUENCIES.peak_grid)
     power = np.zeros(len(grid))
     for run in problem.runs:
         measured = relative_to_rest(run.values, run, problem.campaign.channels)
         for column, channel in problem.campaign.channels.items():
             left = measured[column] - predictions[run.file, column]
             known = np.isfinite(left)
-            if channel.quantity == "lateral_displacement" and known.sum() > 100:
-                every = max(1, int(known.sum() / 800))
+            if channel.quantity == "lateral_displacement" and known.sum() > FREQUENCIES.min_samples:
+                every = max(1, int(known.sum() / FREQUENCIES.max_samples))
                 t, x = run.time[known][::every], left[known][::every]
                 power += lombscargle(t, x - x.mean(), 2.0 * np.pi * grid) / max(float(np.var(x)), 1e-300)
     peaks, _ = find_peaks(power)
-    highest = sorted(peaks, key=lambda k: -power[k])[:MOST_PEAKS]
+    highest = sorted(peaks, key=lambda k: -power[k])[: FREQUENCIES.peak_count]
     return tuple(round(float(grid[k]), 4) for k in highest)

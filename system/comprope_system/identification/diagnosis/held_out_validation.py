@@ -15,9 +15,8 @@ from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.model_effects import effect_name, short_names
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
+from ..settings import VERDICT
 from .diagnose import Candidate, Diagnosis
-
-FAR = 4.0  # prior deviations
 
 
 @dataclass(frozen=True)
@@ -141,7 +140,7 @@ def implausible_parameters(diagnosis: Diagnosis) -> list[tuple[str, float, float
     """Plant parameters that no data sheet is so wrong about: key, relative change, and in how many prior deviations."""
     fitted = _best(diagnosis)
     moved = [(one, float(c), float(c) / one.prior) for one, c in zip(PLANT_PARAMETERS, fitted.coefficients, strict=False)]
-    return [(one.name, expm1(c), off) for one, c, off in moved if one.relative and abs(off) > FAR]
+    return [(one.name, expm1(c), off) for one, c, off in moved if one.relative and abs(off) > VERDICT.implausible_deviation]
 
 
 def _best(diagnosis: Diagnosis) -> FitResult:

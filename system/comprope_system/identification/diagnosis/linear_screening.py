@@ -17,12 +17,10 @@ from ..hypotheses.effect_hypotheses import Hypothesis, effect_hypotheses, instru
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
 from ..prediction.replay import coarsening_factor
+from ..settings import SCREENING
 from .frequency_candidates import residual_peak_frequencies, sway_frequencies
 
 Floats = NDArray[np.float64]
-MASSES = (-0.2, -0.1, 0.1, 0.2)  # logarithms of the rope's mass over the data sheet's
-ALIKE = 0.7  # cosine above which two effects look the same in these data
-CLOSE = 5.0  # misfit per datum of a fit below which looks are best taken from there
 
 
 @dataclass(frozen=True)
@@ -57,7 +55,7 @@ class ScreenedHypothesis:
 
 def indistinguishable(a: ScreenedHypothesis, b: ScreenedHypothesis) -> bool:
     """Whether two effects look the same in these data: the largest cosine between what their traces span, free of the plant's."""
-    return bool(np.linalg.svd(a.span.T @ b.span, compute_uv=False)[0] > ALIKE)
+    return bool(np.linalg.svd(a.span.T @ b.span, compute_uv=False)[0] > SCREENING.indistinguishable)
 
 
 def screen_hypotheses(
@@ -105,7 +103,9 @@ def screen_about_fits(
     What each would leave is told as a share of what `none` leaves.
     """
     looks: list[ScreenedHypothesis] = []
-    for at in [baseline] if nominal is None or baseline.chi_square < CLOSE * len(problem.data) else [baseline, nominal]:
+    for at in (
+        [baseline] if nominal is None or baseline.chi_square < SCREENING.close_fit * len(problem.data) else [baseline, nominal]
+    ):
         plain = solve_in_scale(problem.residual(at.predictions), at.jacobian, fit_directions(at.hypothesis), at.coefficients)
         share = baseline.chi_square / plain.chi_square
         looks += [look for one, by in columns.items() for look in _screened_about(problem, one, by, columns, at, share)]
@@ -172,7 +172,7 @@ def screen_at_other_masses(
 
 def _fits_at_masses(problem: LeastSquaresProblem, initial_fit: FitResult, origin: ParameterPoint) -> Iterator[FitResult]:
     """The model with other masses; its misfit is that with all else refitted, by the derivatives of `begun`."""
-    for x, predictions, solution in fits_at_masses(problem, initial_fit, origin, MASSES):
+    for x, predictions, solution in fits_at_masses(problem, initial_fit, origin, SCREENING.masses):
         point = point_at(initial_fit.hypothesis, list(x), origin)
         yield replace(initial_fit, coefficients=x, point=point, predictions=predictions, chi_square=solution.chi_square)
 

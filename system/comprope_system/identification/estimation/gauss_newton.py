@@ -13,17 +13,12 @@ from numpy.typing import NDArray
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions
+from ..settings import GAUSS_NEWTON
 from .linearisation import fit_directions, linearise, point_at
 from .model_score import penalised_chi_square, prior_cost
 from .weighted_least_squares import LeastSquaresProblem, Solution, scale_of, solve
 
 Floats = NDArray[np.float64]
-ENOUGH = 4e-3  # of the number of data: a fall of the cost below this ends the iteration
-ROUNDS = 40
-KEPT = 0.5  # of what a step promises: the least that it must give for its derivatives to be carried on
-TRUSTED = 3  # rounds after which what a fit expects is believed: friction answers to its size by far other than a line
-HOPELESS = 6.0  # times the rival that a fit may expect in these rounds before it is given up all the same
-SHORTER = (0.3, 0.1, 0.03)  # of a step that leads uphill
 
 
 @dataclass(frozen=True)
@@ -75,20 +70,22 @@ def gauss_newton(
     """
     directions, count, fresh = fit_directions(hypothesis), len(problem.data), True
     best = initial_fit or evaluate(problem, hypothesis, np.asarray(start, float), base)
-    for done in range(ROUNDS):
+    for done in range(GAUSS_NEWTON.max_iterations):
         # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
         scale = scale_of(best.chi_square, count)
         solution = solve(problem.residual(best.predictions), best.jacobian, directions, best.coefficients, scale)
         best = _seen_from(best, solution)
-        if solution.chi_square > abandon_above * (1.0 if done >= TRUSTED else HOPELESS):
+        if solution.chi_square > abandon_above * (
+            1.0 if done >= GAUSS_NEWTON.trusted_iteration else GAUSS_NEWTON.hopeless_factor
+        ):
             break
-        enough, promised, before = ENOUGH * scale * count, best.cost(scale) - solution.cost, best.cost(scale)
+        enough, promised, before = GAUSS_NEWTON.min_decrease * scale * count, best.cost(scale) - solution.cost, best.cost(scale)
         if promised >= enough:
             best = _downhill(problem, best, solution, base, scale)
         gain = before - best.cost(scale)
         if fresh and gain < enough:
             break
-        fresh = gain < max(enough, KEPT * promised)
+        fresh = gain < max(enough, GAUSS_NEWTON.min_gain_ratio * promised)
         if fresh:
             best = replace(evaluate(problem, hypothesis, best.coefficients, base), covariance=best.covariance)
     return best
@@ -122,7 +119,7 @@ def _fitted(
 def _downhill(problem: LeastSquaresProblem, best: FitResult, solution: Solution, base: ParameterPoint, scale: float) -> FitResult:
     """The solution's point, or one nearer to the present where that one is worse than it or cannot be simulated."""
     step = solution.coefficients - best.coefficients
-    for shares in ((1.0,), SHORTER):
+    for shares in ((1.0,), GAUSS_NEWTON.step_fractions):
         tried = _stepped(problem, best, [share * step for share in shares], base)
         found = min(tried, key=lambda one: one.cost(scale), default=best)
         if found.cost(scale) < best.cost(scale):

@@ -11,14 +11,12 @@ from numpy.typing import NDArray
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
+from ..settings import INITIAL_GUESS
 from .gauss_newton import FitResult
 from .linearisation import point_at
 from .weighted_least_squares import LeastSquaresProblem
 
 Floats = NDArray[np.float64]
-FACTORS = (2.5, 0.4)
-LINEAR = 0.15  # of what an effect should explain or leave: the most by which the linear look may be wrong to be believed
-LONGEST = 3  # steps towards larger or smaller sizes
 
 
 def best_initial_guess(
@@ -40,14 +38,18 @@ def best_initial_guess(
     plants = (start[:count], np.zeros(count), baseline.coefficients[:count])
     starts = [np.concatenate([plant, start[count:]]) for plant in plants]
     missed = chi_squares(problem, hypothesis, starts[:1], origin)
-    if missed[0] - expected < LINEAR * min(expected, baseline.chi_square - expected):
+    if missed[0] - expected < INITIAL_GUESS.linearity * min(expected, baseline.chi_square - expected):
         return start
     missed += chi_squares(problem, hypothesis, starts[1:], origin)
     best, least = starts[int(np.argmin(missed))], min(missed)
-    sized = [resized(hypothesis, one, factor, new) for one in [best, *alone(hypothesis, best, new)] for factor in FACTORS]
+    sized = [
+        resized(hypothesis, one, factor, new)
+        for one in [best, *alone(hypothesis, best, new)]
+        for factor in INITIAL_GUESS.size_factors
+    ]
     missed = chi_squares(problem, hypothesis, sized, origin)
-    factor = FACTORS[int(np.argmin(missed)) % len(FACTORS)]
-    for _ in range(LONGEST):
+    factor = INITIAL_GUESS.size_factors[int(np.argmin(missed)) % len(INITIAL_GUESS.size_factors)]
+    for _ in range(INITIAL_GUESS.max_size_steps):
         if min(missed) >= least:
             break
         best, least = sized[int(np.argmin(missed))], min(missed)

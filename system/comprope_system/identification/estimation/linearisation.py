@@ -18,11 +18,11 @@ from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS, Direction
 from ..prediction.parameter_point import ParameterPoint, Predictions
 from ..prediction.replay import relative_to_rest
 from ..prediction.replay_sensitivities import replay_with_sensitivities
+from ..settings import LINEARISATION
 from .weighted_least_squares import LeastSquaresProblem
 
 Floats = NDArray[np.float64]
 Tangents = tuple[dict[str, Floats], dict[int, dict[str, Floats]]]
-STEP = 1e-4  # of a coefficient, by which it is read off what parameters it moves
 
 
 def fit_directions(hypothesis: Hypothesis | None) -> list[Direction]:
@@ -59,7 +59,10 @@ def linearise(
     Raises `SimulationError` where the model cannot be simulated there.
     """
     here, directions = problem.with_held_fixed(point_at(hypothesis, list(x), base)), fit_directions(hypothesis)
-    steps = [STEP if c + STEP <= one.upper else -STEP for c, one in zip(x, directions, strict=True)]
+    steps = [
+        LINEARISATION.parameter_step if c + LINEARISATION.parameter_step <= one.upper else -LINEARISATION.parameter_step
+        for c, one in zip(x, directions, strict=True)
+    ]
     moved = [x + step * (np.arange(len(x)) == k) for k, step in enumerate(steps)]
     there = [problem.with_held_fixed(point_at(hypothesis, list(one), base)) for one in moved]
     campaign = problem.campaign
@@ -145,7 +148,7 @@ def _step_of(hypothesis: Hypothesis) -> float:
 
     What oscillates does as much at any size, but at its typical one a resonance may swing the rope by metres.
     """
-    return 0.1 if hypothesis.polar else 1.0
+    return LINEARISATION.oscillation_step if hypothesis.polar else LINEARISATION.effect_step
 
 
 def _by_instrument(problem: LeastSquaresProblem, direction: Direction, here: ParameterPoint, at: Predictions) -> Floats:

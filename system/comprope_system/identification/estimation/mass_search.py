@@ -13,36 +13,39 @@ from numpy.typing import NDArray
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions
 from ..prediction.replay import coarsening_factor
+from ..settings import MASS_SEARCH
 from .gauss_newton import FitResult, gauss_newton
 from .linearisation import fit_directions, point_at
 from .weighted_least_squares import LeastSquaresProblem, Solution, solve_in_scale
 
 Floats = NDArray[np.float64]
 MASS = [one.name for one in PLANT_PARAMETERS].index("rope.mass_per_length")
-REACH = 0.24  # logarithm of the mass: how far from the data sheet
-APART = 0.04  # between two masses: twenty swings come out of step by 2.5 rad
-PROMISING = 0.9  # of the misfit: what another mass must promise
-LEFT = 1.05  # misfit per datum above which there is something to look for
 
 
 def _start_at_better_mass(problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint) -> Floats | None:
     """Coefficients (k,) with a mass that brings the model into step; None where no other mass promises to."""
     here = initial_fit.coefficients
     current = float(here[MASS])
-    if _refit_linearised(problem, initial_fit, initial_fit.predictions, here).chi_square < LEFT * len(problem.data):
+    if _refit_linearised(problem, initial_fit, initial_fit.predictions, here).chi_square < MASS_SEARCH.adequate * len(
+        problem.data
+    ):
         return None
     looks = fits_at_masses(problem, initial_fit, base, _masses(current), coarsening_factor(problem.campaign.model))
     found = {float(x[MASS]): solution for x, _, solution in looks}
     best = min(found, key=lambda mass: found[mass].chi_square, default=current)
-    if current not in found or found[best].chi_square > PROMISING * found[current].chi_square:
+    if current not in found or found[best].chi_square > MASS_SEARCH.min_improvement * found[current].chi_square:
         return None
     return found[best].coefficients
 
 
 def _masses(current: float) -> list[float]:
-    """Masses within REACH of the data sheet's, and the present one."""
-    steps = int(2.0 * REACH / APART)
-    return [current + APART * k for k in range(-steps, steps + 1) if k == 0 or abs(current + APART * k) <= REACH]
+    """Masses within MASS_SEARCH.reach of the data sheet's, and the present one."""
+    steps = int(2.0 * MASS_SEARCH.reach / MASS_SEARCH.spacing)
+    return [
+        current + MASS_SEARCH.spacing * k
+        for k in range(-steps, steps + 1)
+        if k == 0 or abs(current + MASS_SEARCH.spacing * k) <= MASS_SEARCH.reach
+    ]
 
 
 def fits_at_masses(

@@ -12,23 +12,20 @@ from numpy.typing import NDArray
 
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
-
-EFFECTIVE_SAMPLES = 200.0  # independent looks that a campaign is worth
-PENALTY_PER_PARAMETER = 2.5  # about half the logarithm of LOOKS: of the score, for each parameter of an effect
-PENALTY_PER_RUN_PHASE = 1.0  # the same, for each run's own phase
-ADEQUATE = 0.85  # misfit per datum below which there is nothing to explain
-TAILS = 4.0  # degrees of freedom of Student's t: a data sheet may be wrong by more than data sheets usually are
+from ..settings import SCORE
 
 
 def log_score(chi_square: float, count: int, complexity_penalty: float = 0.0) -> float:
     """Score of a misfit to `count` data: log likelihood of LOOKS independent looks whose scale is free, less its price."""
-    return -0.5 * EFFECTIVE_SAMPLES * log(max(chi_square / count, ADEQUATE)) - complexity_penalty
+    return -0.5 * SCORE.effective_samples * log(max(chi_square / count, SCORE.adequate)) - complexity_penalty
 
 
 def complexity_penalty(hypothesis: Hypothesis, alternatives: int) -> float:
     """What the score of a hypothesis is lowered by for all that was free to choose."""
     turns = sum(len(part.phase_runs) for part in hypothesis.parts or (hypothesis,))
-    return PENALTY_PER_PARAMETER * (1 + len(hypothesis.directions) - turns) + PENALTY_PER_RUN_PHASE * turns + log(alternatives)
+    return (
+        SCORE.parameter_penalty * (1 + len(hypothesis.directions) - turns) + SCORE.run_phase_penalty * turns + log(alternatives)
+    )
 
 
 def prior_cost(coefficients: Sequence[float] | NDArray[np.float64]) -> float:
@@ -37,9 +34,9 @@ def prior_cost(coefficients: Sequence[float] | NDArray[np.float64]) -> float:
     A load cell that shows an eighth too little is no sheave that is an eighth lighter, though both fit as well.
     """
     squares = [(float(c) / one.prior) ** 2 for c, one in zip(coefficients, PLANT_PARAMETERS, strict=False)]
-    return 0.5 * (TAILS + 1.0) * sum(log1p(square / TAILS) for square in squares)
+    return 0.5 * (SCORE.prior_degrees + 1.0) * sum(log1p(square / SCORE.prior_degrees) for square in squares)
 
 
 def penalised_chi_square(chi_square: float, cost: float) -> float:
     """The misfit, raised as a cost lowers its score."""
-    return chi_square * exp(2.0 * cost / EFFECTIVE_SAMPLES)
+    return chi_square * exp(2.0 * cost / SCORE.effective_samples)

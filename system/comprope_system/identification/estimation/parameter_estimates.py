@@ -15,11 +15,9 @@ from comprope.rope.simulator.rope import values_of
 from ..data.campaign import Campaign
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
+from ..settings import ESTIMATES, SCORE
 from .gauss_newton import FitResult
-from .model_score import EFFECTIVE_SAMPLES
 from .weighted_least_squares import scale_of
-
-CONFIDENCE = 1.96  # standard deviations of a 95 % interval
 
 
 @dataclass(frozen=True)
@@ -52,7 +50,7 @@ def standard_error_scale(fitted: FitResult, count: int) -> float:
     So does one that misses them by a discrepancy which is one and the same in thousands of samples: they count as LOOKS, as in
     a score.
     """
-    return float(np.sqrt(scale_of(fitted.chi_square, count) * max(1.0, count / EFFECTIVE_SAMPLES)))
+    return float(np.sqrt(scale_of(fitted.chi_square, count) * max(1.0, count / SCORE.effective_samples)))
 
 
 def effect_estimates(fitted: FitResult, scale: float = 1.0) -> dict[str, Estimate]:
@@ -80,7 +78,7 @@ def _standard_error(part: Hypothesis, own: Sequence[float], covariance: NDArray[
 def _value(key: str, value: float, standard_error: float) -> Estimate:
     declared = _declared(key)
     low, high = (declared.minimum, declared.maximum) if declared else (-float("inf"), float("inf"))
-    reach = CONFIDENCE * standard_error
+    reach = ESTIMATES.confidence_quantile * standard_error
     return Estimate(value, standard_error, max(value - reach, low), min(value + reach, high))
 
 
@@ -103,7 +101,10 @@ def plant_estimates(campaign: Campaign, fitted: FitResult, scale: float = 1.0) -
         c, standard_error = float(fitted.coefficients[k]), scale * float(fitted.covariance[k, k]) ** 0.5
         place = (lambda x, at=base[one.name]: at * exp(x)) if one.relative else (lambda x, at=base[one.name]: at + x)
         least = 0.0 if one.changes else -float("inf")
-        value, low, high = (max(place(c + x), least) for x in (0.0, -CONFIDENCE * standard_error, CONFIDENCE * standard_error))
+        value, low, high = (
+            max(place(c + x), least)
+            for x in (0.0, -ESTIMATES.confidence_quantile * standard_error, ESTIMATES.confidence_quantile * standard_error)
+        )
         found[one.name] = Estimate(value, standard_error * (value if one.relative else 1.0), low, high, base[one.name])
     return found
 

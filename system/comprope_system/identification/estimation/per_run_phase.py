@@ -12,18 +12,18 @@ from numpy.typing import NDArray
 
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import Direction
+from ..settings import ESTIMATES
 from .gauss_newton import FitResult
 from .linearisation import fit_directions
 from .weighted_least_squares import LeastSquaresProblem, solve_in_scale
 
 Floats = NDArray[np.float64]
-SPREAD = 1.0  # rad: prior standard deviation of a run's phase about the common one
 
 
 def with_per_run_phases(hypothesis: Hypothesis, files: Sequence[str]) -> Hypothesis:
     """The hypothesis with a phase for each of the runs."""
     assert hypothesis.polar is not None
-    own = tuple(Direction(f"{hypothesis.polar[1]}@{file}", {}, SPREAD, -np.pi, np.pi) for file in files)
+    own = tuple(Direction(f"{hypothesis.polar[1]}@{file}", {}, ESTIMATES.run_phase_prior, -np.pi, np.pi) for file in files)
     return replace(hypothesis, directions=(*hypothesis.directions, *own), phase_runs=tuple(files))
 
 

@@ -13,9 +13,8 @@ from comprope.quantities import Quantity, quantities
 from comprope.rope.effects import INSTRUMENT, REGISTRY, Effect, RopeModel, names_of
 
 from ..data.campaign import Channel
+from ..settings import HYPOTHESES
 from .plant_parameters import Direction
-
-SIZE = 30.0  # of an effect's typical value: how widely its size is expected; what a size costs is counted apart
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,12 +111,13 @@ def instrument_hypotheses(channels: Mapping[str, Channel]) -> list[Hypothesis]:
     """One hypothesis for each fault of each channel; an offset shows only where the channel is absolute."""
     found = []
     for column, channel in channels.items():
+        noise = channel.scale * (channel.noise or HYPOTHESES.assumed_noise)
         # A wrong sign or unit is a gain too.
-        found.append(_fault("sensor_gain", column, 0.02, 100.0, 1.0))
-        found.append(_fault("sensor_delay", column, 0.01, 10.0, 0.0))
-        found.append(_fault("sensor_drift", column, channel.scale * (channel.noise or 0.1) / 60.0, 100.0, 0.0))
+        found.append(_fault("sensor_gain", column, HYPOTHESES.gain_unit, HYPOTHESES.gain_prior, 1.0))
+        found.append(_fault("sensor_delay", column, HYPOTHESES.delay_unit, HYPOTHESES.delay_prior, 0.0))
+        found.append(_fault("sensor_drift", column, noise / HYPOTHESES.drift_time, HYPOTHESES.drift_prior, 0.0))
         if channel.reference == "absolute":
-            found.append(_fault("sensor_offset", column, channel.scale * (channel.noise or 0.1), 30.0, 0.0))
+            found.append(_fault("sensor_offset", column, noise, HYPOTHESES.offset_prior, 0.0))
     return found
 
 
@@ -135,7 +135,7 @@ def _direction(effect: type[Effect], one: Quantity, probe: float | None) -> Dire
     """The amplitude as a coefficient of its typical value; of a value to try it may stray by a factor of three."""
     key, size = f"effects.{effect.name}.{one.name}", probe if probe is not None else one.nominal
     lower, upper = sorted((one.minimum / size, one.maximum / size))
-    return Direction(key, {key: size}, SIZE, max(lower, 0.0) if probe is not None else lower, upper)
+    return Direction(key, {key: size}, HYPOTHESES.amplitude_prior, max(lower, 0.0) if probe is not None else lower, upper)
 
 
 def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: dict[str, float]) -> Hypothesis:
@@ -144,7 +144,7 @@ def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: d
     amplitude, phase = (f"effects.{effect.name}.{name}" for name in effect.polar)
     size = directions[0].changes[amplitude]
     pair = tuple(
-        Direction(f"{amplitude}.{word}", {amplitude: size, phase: angle}, SIZE, -float("inf"), float("inf"))
+        Direction(f"{amplitude}.{word}", {amplitude: size, phase: angle}, HYPOTHESES.amplitude_prior, -float("inf"), float("inf"))
         for word, angle in (("cosine", 0.0), ("sine", 0.5 * pi))
     )
     return Hypothesis(effect.name, pair, fixed, (amplitude, phase))

@@ -14,12 +14,11 @@ from comprope.rope.simulator.rope import values_of
 from comprope.validation_messages import suggestion
 
 from ..data.campaign import Campaign, Channel
+from ..settings import HYPOTHESES
 from .effect_hypotheses import Hypothesis, combine, hypotheses_of_effect, instrument_hypotheses
 from .plant_parameters import Direction
 
 Floats = NDArray[np.float64]
-YIELD = 0.2  # of a value that is fitted beside an effect's amplitude: its unit
-SLOW = 0.05  # periods over a run: the unit of a frequency
 
 
 def effect_values(model: RopeModel) -> dict[str, float]:
@@ -98,9 +97,13 @@ def shape_hypothesis(one: Hypothesis, longest: float) -> Hypothesis | None:
         if key not in one.fixed or quantity.name not in {*REGISTRY[one.effect].probes, "frequency"}:
             continue
         value = one.fixed[key]
-        size, lowest = (SLOW / longest, -1.0 / SLOW) if quantity.name == "frequency" else (YIELD * value, -0.9 / YIELD)
+        size, lowest = (
+            (HYPOTHESES.frequency_unit / longest, -1.0 / HYPOTHESES.frequency_unit)
+            if quantity.name == "frequency"
+            else (HYPOTHESES.shape_unit * value, -HYPOTHESES.shape_lower / HYPOTHESES.shape_unit)
+        )
         bounds = sorted(((quantity.minimum - value) / size, (quantity.maximum - value) / size))
-        directions.append((Direction(key, {key: size}, 5.0, max(bounds[0], lowest), bounds[1]), value))
+        directions.append((Direction(key, {key: size}, HYPOTHESES.shape_prior, max(bounds[0], lowest), bounds[1]), value))
     if not directions:
         return None
     direction, value = directions[0]

@@ -1,14 +1,18 @@
-"""Plant parameters with the standard deviations of their priors."""
+"""Plant parameters that every fit adjusts, with the standard deviations of their priors."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ..settings import HYPOTHESES
+
 
 @dataclass(frozen=True, eq=False)
 class Direction:
-    """One coefficient: `changes` of the model when it is 1, its prior standard deviation and bounds.
+    """Direction in the space of model parameters, along which one coefficient is fitted.
 
-    A `relative` one is the logarithm of a factor.
+    `changes` are added to model keys per unit of the coefficient; `prior` is the standard deviation of its normal prior about
+    zero, `lower` and `upper` its bounds. A `relative` coefficient is the logarithm of a factor. `origin` says where the prior
+    comes from.
     """
 
     name: str
@@ -17,25 +21,28 @@ class Direction:
     lower: float = -float("inf")
     upper: float = float("inf")
     relative: bool = False
+    origin: str = ""
 
 
-def _plant(key: str, prior: float) -> Direction:
-    return Direction(key, {key: 1.0}, prior, -2.3, 1.4, relative=True)
+def _relative(key: str, prior: float, origin: str) -> Direction:
+    """Direction of a parameter that is known within a factor of exp(prior)."""
+    return Direction(key, {key: 1.0}, prior, *HYPOTHESES.plant_bounds, relative=True, origin=origin)
 
 
 CLOCK = "clock.offset"
-# How well a plant's data sheet is usually known: relative standard deviations.
 PLANT_PARAMETERS = (
-    _plant("rope.bending_stiffness", 0.15),
-    _plant("rope.bending_damping", 0.4),
-    _plant("rope.mass_per_length", 0.1),
-    _plant("rope.axial_stiffness", 0.1),
-    _plant("contact.friction_coefficient", 0.3),
-    _plant("contact.stiffness", 0.4),
-    _plant("sheave.mass", 0.01),
-    _plant("sheave.inertia", 0.02),
-    _plant("shaft.pit", 0.004),
-    Direction("rope.external_damping", {"rope.external_damping": 1.0}, 0.01, 0.0, 1.0),
-    # How late all channels are against the car's position [s]: drive log and sensors may have clocks of their own.
-    Direction(CLOCK, {}, 0.02, -0.5, 0.5),
+    _relative("rope.bending_stiffness", 0.15, "engineering judgement: the stiffness of a stranded rope depends on its use"),
+    _relative("rope.bending_damping", 0.4, "engineering judgement: hardly ever stated"),
+    _relative("rope.mass_per_length", 0.1, "engineering judgement: data sheets differ from the rope as delivered and greased"),
+    _relative("rope.axial_stiffness", 0.1, "engineering judgement"),
+    _relative("contact.friction_coefficient", 0.3, "engineering judgement: 0.05 to 0.2 bare, 0.3 lined"),
+    _relative("contact.stiffness", 0.4, "engineering judgement: hardly ever stated"),
+    _relative("sheave.mass", 0.01, "engineering judgement: weighed"),
+    _relative("sheave.inertia", 0.02, "engineering judgement: from drawings"),
+    _relative("shaft.pit", 0.004, "engineering judgement: measured with a tape"),
+    Direction(
+        "rope.external_damping", {"rope.external_damping": 1.0}, 0.01, 0.0, 1.0, origin="engineering judgement: none is usual"
+    ),
+    # Delay of all channels against the car's position [s]: drive log and sensors may have different clocks.
+    Direction(CLOCK, {}, 0.02, -0.5, 0.5, origin="engineering judgement: one or two samples of a logger"),
 )

@@ -6,11 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..estimation.gauss_newton import FitResult, gauss_newton
-from ..estimation.model_score import PENALTY_PER_PARAMETER, log_score
+from ..estimation.model_score import log_score
 from ..hypotheses.model_effects import combined_or_none, components_by_effect
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
 from ..progress import ProgressCallback, no_progress
+from ..settings import SCORE
 from .add_effect import Ground
 
 Floats = NDArray[np.float64]
@@ -54,6 +55,6 @@ def _score(ground: Ground, fitted: FitResult) -> float:
     """The diagnosis' own score: what the effects explain, less what they cost."""
     groups = components_by_effect(fitted.hypothesis, fitted.effect_coefficients)
     complexity_penalty = sum(
-        PENALTY_PER_PARAMETER * (1 + sum(len(part.directions) for part, _ in pairs)) for pairs in groups.values()
+        SCORE.parameter_penalty * (1 + sum(len(part.directions) for part, _ in pairs)) for pairs in groups.values()
     )
     return log_score(fitted.chi_square, len(ground.problem.data), complexity_penalty + fitted.prior_cost)

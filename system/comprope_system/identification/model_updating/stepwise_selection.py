@@ -18,10 +18,9 @@ from ..hypotheses.effect_hypotheses import combine
 from ..hypotheses.model_effects import components_by_effect
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
+from ..settings import MODEL_UPDATING
 from .add_effect import Added, Ground, added, fit_new, prepare
 from .backward_elimination import Without, prune
-
-MOST = 4  # effects that a journey adds
 
 
 @dataclass(frozen=True)
@@ -83,7 +82,12 @@ def _share(fall: float, whole: float) -> float:
     return fall / whole if whole else float("nan")
 
 
-def journey(campaign: Campaign, executor: Executor, report_progress: ProgressCallback = no_progress, most: int = MOST) -> Journey:
+def journey(
+    campaign: Campaign,
+    executor: Executor,
+    report_progress: ProgressCallback = no_progress,
+    most: int = MODEL_UPDATING.max_effects,
+) -> Journey:
     """Add what is missing, one verdict after the other, until the model is adequate or nothing known helps."""
     ground = prepare(campaign, executor, report_progress)
     before = compare(campaign, executor)

@@ -15,7 +15,8 @@ from comprope.rope.simulator.rope import values_of
 
 from ..data.campaign import Campaign, Channel, Run
 from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
-from .replay import STEP, replay
+from ..settings import REPLAY
+from .replay import replay
 
 Floats = NDArray[np.float64]
 Predictions = dict[tuple[str, str], Floats]
@@ -55,7 +56,7 @@ def submit_replays(
 ) -> list[Future[dict[str, Floats]]]:
     """Start the replays of some runs at a point, with elements and steps `coarse` times as long."""
     there = [run_at_point(campaign.model, run, point, coarse) for run in runs]
-    return [executor.submit(predict, campaign.model, run, campaign.channels, coarse * STEP) for run in there]
+    return [executor.submit(predict, campaign.model, run, campaign.channels, coarse * REPLAY.time_step) for run in there]
 
 
 def run_at_point(model: RopeModel, run: Run, point: ParameterPoint, coarse: float = 1.0) -> Run:

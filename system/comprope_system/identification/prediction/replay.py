@@ -14,11 +14,9 @@ from comprope.rope.parameters import Base
 from comprope.rope.simulator.rope import CompensationRope
 
 from ..data.campaign import Channel, Run
+from ..settings import REPLAY
 
 Floats = NDArray[np.float64]
-GRID = 0.01  # s between outputs; channels are interpolated by cubic splines in between
-STEP = 0.005  # s, time step of a replay
-COARSEST = 0.3  # of the sheave's radius: elements of a first look
 
 
 @dataclass(frozen=True)
@@ -30,11 +28,13 @@ class Replay:
     halvings: int
 
 
-def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: float = STEP) -> Replay:
+def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: float = REPLAY.time_step) -> Replay:
     """Drive the model, with the run's changes, by the run's trip; references to rest are taken as in the data."""
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
     rope = CompensationRope(changed)
-    grid = run.time[0] + GRID * np.arange(int(np.ceil((run.time[-1] - run.time[0]) / GRID)) + 2)
+    grid = run.time[0] + REPLAY.output_interval * np.arange(
+        int(np.ceil((run.time[-1] - run.time[0]) / REPLAY.output_interval)) + 2
+    )
     seen = _drive(rope, run, grid, channels)
     values = {}
     for column in channels:
@@ -47,7 +47,8 @@ def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: fl
 
 def coarsening_factor(model: RopeModel) -> float:
     """How much longer elements may be for a first look: twice, where that still bends round the sheave."""
-    return 2.0 if 2.0 * model.rope.element_length <= COARSEST * model.sheave.radius else 1.0
+    coarse = REPLAY.coarsening
+    return coarse if coarse * model.rope.element_length <= REPLAY.coarse_element * model.sheave.radius else 1.0
 
 
 def instrument(model: RopeModel, column: str, time: Floats, value: Floats) -> Floats:
@@ -87,7 +88,7 @@ def _drive(rope: CompensationRope, run: Run, grid: Floats, channels: Mapping[str
     evaluated = any(one.quantity.endswith(("force", "tension")) for one in channels.values())
     for k in range(len(grid)):
         if k:
-            rope.step(GRID, np.concatenate([paths[k - 1], paths[k]], axis=1).ravel())
+            rope.step(REPLAY.output_interval, np.concatenate([paths[k - 1], paths[k]], axis=1).ravel())
         outputs: Mapping[str, Any] = rope.outputs() if evaluated else rope.sheave()
         for column, channel in channels.items():
             if channel.quantity == "lateral_displacement":

@@ -13,10 +13,10 @@ from comprope.rope.simulator.rope import values_of
 from comprope.rope.simulator.sensitive_rope import SensitiveRope
 
 from ..data.campaign import Channel, Run
-from .replay import GRID, STEP, Floats, Replay, _paths, instrument, relative_to_rest
+from ..settings import REPLAY
+from .replay import Floats, Replay, _paths, instrument, relative_to_rest
 
 FORCES = ("force", "tension")
-GROWN = 1e100  # more than a derivative ever is, and its square still a number
 
 
 def replay_with_sensitivities(
@@ -24,7 +24,7 @@ def replay_with_sensitivities(
     run: Run,
     channels: Mapping[str, Channel],
     directions: Mapping[str, Direction],
-    step: float = STEP,
+    step: float = REPLAY.time_step,
     at: Mapping[str, Direction] | None = None,
     *,
     exact: bool | None = None,
@@ -39,9 +39,11 @@ def replay_with_sensitivities(
     """
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
     rope = SensitiveRope(changed, directions, at, exact=_sticking(values_of(changed)) if exact is None else exact)
-    grid = run.time[0] + GRID * np.arange(int(np.ceil((run.time[-1] - run.time[0]) / GRID)) + 2)
+    grid = run.time[0] + REPLAY.output_interval * np.arange(
+        int(np.ceil((run.time[-1] - run.time[0]) / REPLAY.output_interval)) + 2
+    )
     seen, hidden = _drive(rope, run, grid, channels)
-    if not all(np.abs(one).max() < GROWN for one in seen.values()):
+    if not all(np.abs(one).max() < REPLAY.derivative_limit for one in seen.values()):
         raise SimulationError(f"{run.file}: derivatives along the run grew beyond all numbers")
     sampled = {column: CubicSpline(grid, seen[column])(run.time) for column in channels}
     for column, values in sampled.items():
@@ -81,7 +83,7 @@ def _drive(
     others = {column: one.quantity for column, one in channels.items() if column not in lasers}
     for k in range(len(grid)):
         if k:
-            rope.step(GRID, np.concatenate([paths[k - 1], paths[k]], axis=1).ravel())
+            rope.step(REPLAY.output_interval, np.concatenate([paths[k - 1], paths[k]], axis=1).ravel())
         if lasers:
             looked[k] = rope.sights()
         if others:

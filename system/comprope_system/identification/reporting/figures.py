@@ -9,12 +9,13 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ...report.plot_style import COLOURS, FIRST, GREY, SECOND, THIRD, label, legend, panels
-from ..comparison.compare import PLACES, ChannelComparison, Comparison, RunComparison
-from ..comparison.error_metrics import BANDS, ORDERS
+from ..comparison.compare import ChannelComparison, Comparison, RunComparison
+from ..comparison.error_metrics import ORDERS
 from ..data.campaign import Campaign
 from ..data.trip_phases import phases
 from ..residuals.input_estimation import InputEstimation
 from ..residuals.residual_correlation import ResidualCorrelation
+from ..settings import COMPARISON
 
 Floats = NDArray[np.float64]
 MEASURED, PHASE = SECOND, "#eef2f6"
@@ -59,8 +60,8 @@ def _shade(axes: Axes, campaign: Campaign, run: RunComparison, one: ChannelCompa
 def where(comparison: Comparison) -> Figure:
     """Error of each channel over the car's position and over frequency, root mean square over the runs."""
     figure, (left, right) = panels(2, height=3.2)
-    edges = np.linspace(0.0, comparison.campaign.model.shaft.height, PLACES + 1)
-    bands = [f"{a:g}–{b:g}" if np.isfinite(b) else f"over {a:g}" for a, b in itertools.pairwise(BANDS)]
+    edges = np.linspace(0.0, comparison.campaign.model.shaft.height, COMPARISON.position_bins + 1)
+    bands = [f"{a:g}–{b:g}" if np.isfinite(b) else f"over {a:g}" for a, b in itertools.pairwise(COMPARISON.frequency_bands)]
     for k, column in enumerate(comparison.campaign.channels):
         own = [one for run in comparison.runs for one in run.channels if one.column == column]
         left.stairs(

@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from ..comparison.compare import ENOUGH, Comparison
+from ..comparison.compare import Comparison
 from ..diagnosis.diagnose import Diagnosis
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, full_name, implausible_parameters, ranking, reduced_chi_square
 from ..model_updating.add_effect import Added
 from ..model_updating.stepwise_selection import Journey
+from ..settings import COMPARISON
 from .formatting import chance, number, percent
 
 
@@ -14,7 +15,7 @@ def compared(one: Comparison) -> str:
     """One sentence: how far off, and whether that is more than noise."""
     held = f", {percent(one.validate_nrmse)} on the runs held out" if np.isfinite(one.validate_nrmse) else ""
     ratio = one.chi_square
-    rest = "noise explains all of it" if ratio < ENOUGH else "more than noise is left to explain"
+    rest = "noise explains all of it" if ratio < COMPARISON.adequate else "more than noise is left to explain"
     return (
         f"The model misses by {percent(one.fit_nrmse)} of what the channels vary on the fit runs{held}; noise alone would leave "
         f"{percent(one.floor('fit'))}. What is left is {number(ratio)} times the noise's mean square: {rest}."

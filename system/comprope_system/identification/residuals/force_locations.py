@@ -18,16 +18,12 @@ from comprope.rope.effects import RopeModel, model_type, user_effects
 from ..data.campaign import Channel, Run
 from ..estimation.weighted_least_squares import LeastSquaresProblem
 from ..prediction.parameter_point import ParameterPoint, run_at_point
-from ..prediction.replay import STEP, Floats, coarsening_factor
+from ..prediction.replay import Floats, coarsening_factor
 from ..prediction.replay_sensitivities import replay_with_sensitivities
+from ..settings import FORCE_LOCATIONS, REPLAY
 
 PROBE = Path(__file__).with_name("force_probe_effect.py")
 KEY = "effects.residual_force."
-BANDS = 3  # of heights on each side at which a push from the shaft is looked for
-SPACING = 0.3  # s between splines, at least
-MOST = 40  # splines of a run, about
-GROUP = 60  # directions of one tangent-linear run
-TIED = 3  # splines that overlap the start of a record: as one they stand for a force that was there before
 
 Shown = list[dict[str, Floats]]  # for each pulse every channel (n,)
 
@@ -46,11 +42,11 @@ class ForceLocation:
 def force_locations(model: RopeModel) -> list[ForceLocation]:
     """Every place at which an unknown force or motion is looked for."""
     sides = {"car": "under the car", "counterweight": "under the counterweight"}
-    reach = model.shaft.height / BANDS
+    reach = model.shaft.height / FORCE_LOCATIONS.height_bands
     bands = [
         ForceLocation(f"a sideways push on the {side}'s side about {height:.3g} m up", f"{side}_side", "N/m", height, reach)
         for side in sides
-        for height in reach * (np.arange(BANDS) + 0.5)
+        for height in reach * (np.arange(FORCE_LOCATIONS.height_bands) + 0.5)
     ]
     ends = [
         ForceLocation(f"{'a sideways' if way == 'out' else 'an up-and-down'} motion of the end {where}", f"{side}_end_{way}", "m")
@@ -74,12 +70,12 @@ class Splines:
 
     @property
     def centres(self) -> Floats:
-        """Times at which the splines are largest: (count + TIED - 1,) [s]."""
-        return np.asarray(self.begin + self.spacing * np.arange(-1, self.count + TIED - 2))
+        """Times at which the splines are largest: (count + FORCE_LOCATIONS.tied_splines - 1,) [s]."""
+        return np.asarray(self.begin + self.spacing * np.arange(-1, self.count + FORCE_LOCATIONS.tied_splines - 2))
 
     def tied(self, columns: Floats) -> Floats:
         """Columns (n, count) by coefficients, from those by splines: the first ones go together."""
-        return np.column_stack([columns[:, :TIED].sum(1), columns[:, TIED:]])
+        return np.column_stack([columns[:, : FORCE_LOCATIONS.tied_splines].sum(1), columns[:, FORCE_LOCATIONS.tied_splines :]])
 
     def at(self, time: Floats) -> Floats:
         """Values (n, count) of what each coefficient stands for."""
@@ -90,7 +86,7 @@ class Splines:
 def splines_of(run: Run) -> Splines:
     """Splines over a record."""
     length = float(run.time[-1] - run.time[0])
-    spacing = max(SPACING, length / MOST)
+    spacing = max(FORCE_LOCATIONS.min_spacing, length / FORCE_LOCATIONS.max_splines)
     return Splines(float(run.time[0]), spacing, int(np.ceil(length / spacing)))
 
 
@@ -116,7 +112,7 @@ def _begun(problem: LeastSquaresProblem, point: ParameterPoint, run: Run, looked
     """Start the tangent-linear runs of one record, a group of pulses each."""
     campaign, coarse, splines = problem.campaign, coarsening_factor(problem.campaign.model), splines_of(run)
     pulses = [(location, float(time), splines.spacing) for location in looked for time in splines.centres]
-    groups = [pulses[first : first + GROUP] for first in range(0, len(pulses), GROUP)]
+    groups = [pulses[first : first + FORCE_LOCATIONS.group_size] for first in range(0, len(pulses), FORCE_LOCATIONS.group_size)]
     model, there = probed(campaign.model), run_at_point(campaign.model, run, problem.with_held_fixed(point), coarse)
     return [problem.executor.submit(answers, model, there, campaign.channels, some, coarse) for some in groups]
 
@@ -144,5 +140,5 @@ def answers(
         str(k): {KEY + "height": location.height, KEY + "reach": location.reach, KEY + "time": time, KEY + "width": width}
         for k, (location, time, width) in enumerate(pulses)
     }
-    by = replay_with_sensitivities(model, run, channels, directions, coarse * STEP, at)[1]
+    by = replay_with_sensitivities(model, run, channels, directions, coarse * REPLAY.time_step, at)[1]
     return [by[name] for name in directions]

@@ -20,13 +20,10 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, submit_replays
 from ..prediction.replay import Floats, coarsening_factor
 from ..progress import ProgressCallback, no_progress
+from ..settings import CORRELATION, FORCE_REPORT
 from .force_locations import ForceLocation, force_locations, responses, splines_of
 from .regularised_deconvolution import Deconvolution, cross_validation_folds, deconvolve
-from .residual_correlation import CLEAR, ResidualCorrelation, ResidualSeries, correlations_of, motion_of
-
-GRID = 0.1  # s between the values of a course that are told
-SURE = 0.6  # share above which a sinusoid is worth telling of a course, which is smooth and thus never far from one
-ALIKE = 0.1  # difference of shares below which one place is hardly told from another
+from .residual_correlation import ResidualCorrelation, ResidualSeries, correlations_of, motion_of
 
 
 @dataclass(frozen=True)
@@ -74,17 +71,19 @@ class InputEstimation:
         """One sentence."""
         best = self.estimates[0]
         explains = f"explains {100.0 * best.share:.0f} % of what is left"
-        if best.share < CLEAR:
+        if best.share < CORRELATION.min_share:
             return f"No force at one place accounts for it; the best, {best.location.name}, {explains}"
         told = f"{best.location.name} of {best.sized()} rms {explains}"
         # A profile that holds from run to run says more than a sinusoid that may begin anywhere in each.
-        clear = [one for one in self.correlations if one.peak is None and one.share > CLEAR] or [
-            one for one in self.correlations if one.share > SURE
+        clear = [one for one in self.correlations if one.peak is None and one.share > CORRELATION.min_share] or [
+            one for one in self.correlations if one.share > FORCE_REPORT.min_sinusoid_share
         ]
         where = f" at {clear[0].peak:.3g} {clear[0].unit}" if clear and clear[0].peak is not None else ""
         follows = f"it follows {clear[0].coordinate}{where}" if clear else "it follows nothing from run to run"
         similar = [
-            f"{one.location.name} ({100.0 * one.share:.0f} %)" for one in self.estimates[1:] if one.share > best.share - ALIKE
+            f"{one.location.name} ({100.0 * one.share:.0f} %)"
+            for one in self.estimates[1:]
+            if one.share > best.share - FORCE_REPORT.similar_share
         ]
         others = f"; these data hardly tell it from {', '.join(similar)}" if similar else ""
         return f"{told[0].upper()}{told[1:]}; {follows}{others}"
@@ -125,7 +124,7 @@ def _suspect(
     excess = max(chi_square - len(problem.data), 1e-300)
     histories = {}
     for run, coefficients in zip(problem.runs, found.histories, strict=True):
-        time = np.arange(run.time[0], run.time[-1], GRID)
+        time = np.arange(run.time[0], run.time[-1], FORCE_REPORT.sampling_interval)
         histories[run.file] = TimeHistory(time, splines_of(run).at(time) @ coefficients)
     return ForceEstimate(location, min(max((chi_square - found.missed) / excess, 0.0), 1.0), histories)
 

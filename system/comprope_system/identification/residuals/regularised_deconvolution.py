@@ -20,12 +20,9 @@ from scipy.linalg import block_diag, cho_factor, cho_solve
 from scipy.optimize import minimize_scalar
 
 from ..data.whitening import WhitenedChannel
+from ..settings import DECONVOLUTION
 
 Floats = NDArray[np.float64]
-SMOOTH = (0.5, 1.0, 2.0, 4.0)  # L, in splines
-SIZES = (-4.0, 6.0)  # of log10 k, in units of the noise over the mean response
-FOLDS = 5
-BLOCK = 1.0  # s
 
 
 @dataclass(frozen=True)
@@ -83,7 +80,7 @@ def deconvolve(
     unit = max(float(np.sqrt((x**2).sum() / max(len(x.T), 1))), 1e-300)
     both = np.hstack([x / unit, plant])
     whole = NormalEquations.of(both, r)
-    shapes = {smooth: block_diag(*(prior_root(count, smooth) for count in counts)) for smooth in SMOOTH}
+    shapes = {smooth: block_diag(*(prior_root(count, smooth) for count in counts)) for smooth in DECONVOLUTION.smoothness}
     found = {smooth: _size(whole, shape, plant.shape[1], len(r)) for smooth, shape in shapes.items()}
     smooth = min(found, key=lambda one: found[one][1])
     root = _root(shapes[smooth], found[smooth][0], plant.shape[1])
@@ -106,7 +103,9 @@ def _size(whole: NormalEquations, shape: Floats, plant: int, count: int) -> tupl
         x, determinant = own.most_likely()
         return count * float(np.log(max(own.square - float(x @ own.vector), 1e-300))) + determinant
 
-    found = minimize_scalar(unlikely, bounds=SIZES, method="bounded", options={"xatol": 0.1})
+    found = minimize_scalar(
+        unlikely, bounds=DECONVOLUTION.log_size, method="bounded", options={"xatol": DECONVOLUTION.size_tolerance}
+    )
     return float(found.x), float(found.fun)
 
 
@@ -126,7 +125,7 @@ def cross_validation_folds(whitened_channels: Sequence[WhitenedChannel], times: 
     """The fold of each datum (N,): neighbours in time and other channels lie in others. `times` are those of the parts' bins."""
     columns = list(dict.fromkeys(one.column for one in whitened_channels))
     found = [
-        (time // BLOCK).astype(np.int64) + 2 * columns.index(one.column)
+        (time // DECONVOLUTION.fold_duration).astype(np.int64) + 2 * columns.index(one.column)
         for one, time in zip(whitened_channels, times, strict=True)
     ]
-    return np.concatenate(found) % FOLDS
+    return np.concatenate(found) % DECONVOLUTION.folds

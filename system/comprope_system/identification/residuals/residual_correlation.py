@@ -12,18 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..comparison.compare import sheave_angle
-from ..comparison.error_metrics import LEAST, rms
+from ..comparison.error_metrics import rms
 from ..data.campaign import Campaign, Run
 from ..data.trip_phases import phases
 from ..prediction.parameter_point import Predictions
 from ..prediction.replay import relative_to_rest
+from ..settings import COMPARISON, CORRELATION
 
 Floats = NDArray[np.float64]
-BINS = 30
-FREQUENCIES = np.arange(0.05, 8.0, 0.01)  # Hz
-ORDERS = np.arange(0.5, 6.01, 0.02)
-SAMPLES = 600  # of each channel and run; more would only cost time
-CLEAR = 0.3  # share above which a clue is worth telling
+FREQUENCIES = np.arange(*CORRELATION.frequencies)  # Hz
+ORDERS = np.arange(*CORRELATION.orders)
 
 
 @dataclass(frozen=True)
@@ -90,7 +88,7 @@ WORDS = {
 
 def correlation_sentences(found: list[ResidualCorrelation], rest_ratio: float) -> list[str]:
     """Sentences for a person; `standing` is the residual's rms at rest over its rms in all."""
-    clear = [one.sentence() for one in found if one.share > CLEAR]
+    clear = [one.sentence() for one in found if one.share > CORRELATION.min_share]
     still = f"at rest before the trip it is {rest_ratio:.2g} times as large as on the whole"
     none = ["it follows none of time, position, rope, speed, frequency or the sheave's angle from run to run"]
     return [*(clear or none), still] if np.isfinite(rest_ratio) else clear or none
@@ -112,7 +110,7 @@ def residual_series(campaign: Campaign, predictions: Predictions) -> list[Residu
     for column, channel in campaign.channels.items():
         own = [one for one in raw if one.column == column]
         size = rms(np.concatenate([one.x for one in own])) if own else 0.0
-        if size > 1.5 * channel.scale * (channel.noise or 0.0):
+        if size > CORRELATION.min_residual * channel.scale * (channel.noise or 0.0):
             pieces += [ResidualSeries(one.run, column, one.x / size, one.at, one.at_rest, one.moving) for one in own]
     return pieces
 
@@ -122,9 +120,9 @@ def _series_of_run(campaign: Campaign, run: Run, predictions: Predictions) -> It
     for column in campaign.channels:
         residual = measured[column] - predictions[run.file, column]
         known = np.flatnonzero(np.isfinite(residual))
-        if len(known) < 50:
+        if len(known) < CORRELATION.min_samples:
             continue
-        known = known[:: max(1, len(known) // SAMPLES)]
+        known = known[:: max(1, len(known) // CORRELATION.max_samples)]
         t = run.time[known]
         at = motion_of(campaign, run, t) | {"material": _material(campaign, run, column, t)}
         yield ResidualSeries(
@@ -184,16 +182,18 @@ def profile_share(pieces: list[ResidualSeries], coordinate: str) -> float:
 
 def _edges(group: list[ResidualSeries], coordinate: str) -> Floats:
     values = np.concatenate([[0.0], *(one.samples(coordinate)[0] for one in group)])
-    return np.linspace(values.min(), values.max() + 1e-9, BINS + 1)
+    return np.linspace(values.min(), values.max() + 1e-9, CORRELATION.profile_bins + 1)
 
 
 def _profile(known: list[ResidualSeries], coordinate: str, edges: Floats) -> Floats:
     """Mean residual in each bin over some runs, zero where none lies."""
     if not known:
-        return np.zeros(BINS)
+        return np.zeros(CORRELATION.profile_bins)
     places, residuals = (np.concatenate(parts) for parts in zip(*(one.samples(coordinate) for one in known), strict=True))
     index = np.digitize(places, edges[1:-1])
-    return np.bincount(index, residuals, BINS) / np.maximum(np.bincount(index, minlength=BINS), 1)
+    return np.bincount(index, residuals, CORRELATION.profile_bins) / np.maximum(
+        np.bincount(index, minlength=CORRELATION.profile_bins), 1
+    )
 
 
 def _sinusoid(
@@ -202,11 +202,11 @@ def _sinusoid(
     """The one frequency that explains most in all channels and runs, with a phase and an amplitude for each."""
     explained, whole = np.zeros(len(grid)), 0.0
     for place, x in (one.samples(coordinate) for one in pieces):
-        if len(x) < LEAST:
+        if len(x) < COMPARISON.min_samples:
             continue
         span = float(np.ptp(place)) * radians / (2.0 * np.pi)
         whole += float((x**2).sum())
-        explained += np.where(grid * span > 1.5, _explained(place * radians, x, grid), 0.0)
+        explained += np.where(grid * span > CORRELATION.min_periods, _explained(place * radians, x, grid), 0.0)
     best = int(np.argmax(explained))
     return ResidualCorrelation(words, float(explained[best]) / whole if whole else 0.0, unit, float(grid[best]))
 

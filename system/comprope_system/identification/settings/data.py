@@ -1,0 +1,67 @@
+"""Constants of the treatment of measured data: rest and cruise, bins, noise, discrepancy, outliers."""
+
+from dataclasses import dataclass
+
+from .declaration import DERIVED, JUDGEMENT, setting
+
+
+@dataclass(frozen=True)
+class TripPhases:
+    """Phases of a measured trip."""
+
+    rest_duration: float = setting(
+        0.2, "s", "least time from the start of a record that counts as rest; a mean at rest needs some samples", JUDGEMENT
+    )
+    cruise_speed: float = setting(0.99, "1", "share of the top speed above which the car cruises", JUDGEMENT)
+
+
+@dataclass(frozen=True)
+class Whitening:
+    """Averaging of samples in bins, and the covariance of the bins."""
+
+    bin_width: float = setting(0.05, "s", "least width of a bin; a tenth of the period of a 2 Hz oscillation", JUDGEMENT)
+    max_bins: int = setting(500, "1", "most bins of a channel in a run; the covariance is factorised in O(bins^3)", JUDGEMENT)
+    min_samples: int = setting(20, "1", "fewest usable samples of a channel in a run; with fewer it is left out", JUDGEMENT)
+    discrepancy_time: float = setting(
+        0.5, "s", "correlation time of the model discrepancy, and of residuals in the estimate of a clock offset", JUDGEMENT
+    )
+    discrepancy_share: float = setting(
+        0.002, "1", "standard deviation of the discrepancy over that of the channel: error of mesh, time step and recovered trip",
+        JUDGEMENT,
+    )  # fmt: skip
+    discrepancy_noise: float = setting(0.15, "1", "least standard deviation of the discrepancy over that of the noise", JUDGEMENT)
+    outlier_threshold: float = setting(
+        6.0, "1", "standard deviations from the running median beyond which a sample is an outlier", JUDGEMENT
+    )
+    outlier_window: int = setting(11, "1", "samples of the running median", JUDGEMENT)
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Standard deviation of a channel's noise: as stated in the campaign, or estimated from the rest before the trip."""
+
+    mad_factor: float = setting(
+        1.4826, "1", "standard deviation over median absolute deviation", f"{DERIVED}: normal distribution, 1 / 0.6745"
+    )
+    min_rest_samples: int = setting(40, "1", "fewest samples at rest that may contradict a stated noise", JUDGEMENT)
+    contradiction_factor: float = setting(
+        1.4, "1", "ratio of estimated to stated noise that counts as a contradiction", JUDGEMENT
+    )
+    contradiction_width: float = setting(
+        2.4, "1", "widening of that ratio by width / sqrt(samples)",
+        f"{DERIVED}: two standard errors of an estimate from the median of differences",
+    )  # fmt: skip
+    quantisation_ratio: float = setting(
+        0.2,
+        "1",
+        "estimated over stated noise below which the channel is coarsely quantised, and the stated noise holds",
+        JUDGEMENT,
+    )
+    min_estimate_samples: int = setting(
+        20, "1", "fewest samples at rest for an estimate where no noise is stated; with fewer the whole run is used", JUDGEMENT
+    )
+    floor: float = setting(1e-9, "SI", "least noise where none is stated, absolute part", "keeps a constant channel finite")
+    floor_share: float = setting(1e-4, "1", "the same, share of the channel's standard deviation", JUDGEMENT)
+
+
+TRIP_PHASES, WHITENING, NOISE = TripPhases(), Whitening(), Noise()
