@@ -1,0 +1,104 @@
+"""Scores, penalties, priors and weighted least squares, each against its definition."""
+
+import math
+
+import numpy as np
+import pytest
+
+from comprope_system.identification.comparison.nrmse import channel_error, overall
+from comprope_system.identification.estimation.model_score import (
+    complexity_penalty,
+    log_score,
+    penalised_chi_square,
+    prior_cost,
+)
+from comprope_system.identification.estimation.weighted_least_squares import scale_of, solve, solve_in_scale
+from comprope_system.identification.hypotheses.effect_hypotheses import Hypothesis
+from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS, Direction
+
+
+def directions(count: int, prior: float = 1.0, **bounds: float) -> tuple[Direction, ...]:
+    return tuple(Direction(f"x{k}", {}, prior, **bounds) for k in range(count))
+
+
+def test_the_score_is_that_of_two_hundred_samples_of_unknown_scale() -> None:
+    """Halving chi-square gains 100 ln 2, however many samples there are; below 0.85 a datum nothing more is to be gained."""
+    assert log_score(2e4, 1000) == pytest.approx(-100.0 * math.log(20.0), rel=1e-14)
+    assert log_score(1e4, 1000) - log_score(2e4, 1000) == pytest.approx(100.0 * math.log(2.0), rel=1e-12)
+    assert log_score(500.0, 1000) == log_score(850.0, 1000) == pytest.approx(-100.0 * math.log(0.85), rel=1e-14)
+    assert log_score(2e4, 1000, 7.5) == pytest.approx(log_score(2e4, 1000) - 7.5, rel=1e-14)
+
+
+def test_what_was_free_to_choose_has_its_penalty() -> None:
+    """2.5 for the effect and for each direction, 1 for each run's own phase, and the choice among alternatives."""
+    plain = Hypothesis("air_drag", directions(2))
+    assert complexity_penalty(plain, 1) == 2.5 * 3
+    assert complexity_penalty(plain, 8) == pytest.approx(2.5 * 3 + math.log(8.0), rel=1e-14)
+    turned = Hypothesis("building_sway", directions(4), phase_runs=("a.csv", "b.csv"))
+    assert complexity_penalty(turned, 1) == 2.5 * 3 + 2 * 1.0
+    both = Hypothesis("two", directions(6), parts=(plain, turned))
+    assert complexity_penalty(both, 1) == 2.5 * 5 + 2 * 1.0
+
+
+def test_a_plant_off_its_data_sheet_costs_student_s_t_of_four_degrees_of_freedom() -> None:
+    off = np.zeros(len(PLANT_PARAMETERS) + 3)
+    off[0], off[-1] = 2.0 * PLANT_PARAMETERS[0].prior, 1e3  # what follows the plant's coefficients is no plant
+    assert prior_cost(off) == pytest.approx(2.5 * math.log(2.0), rel=1e-12)
+    off[3] = -PLANT_PARAMETERS[3].prior
+    assert prior_cost(off) == pytest.approx(2.5 * (math.log(2.0) + math.log(1.25)), rel=1e-12)
+
+
+def test_a_cost_lowers_the_score_by_itself_when_it_raises_chi_square() -> None:
+    raised = penalised_chi_square(3e3, 4.0)
+    assert log_score(raised, 1000) == pytest.approx(log_score(3e3, 1000) - 4.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(("chi_square", "count", "expected"), [(500.0, 100, 5.0), (50.0, 100, 1.0), (3.0, 0, 3.0)])
+def test_squares_stand_for_noise_or_for_whatever_is_more(chi_square: float, count: int, expected: float) -> None:
+    assert scale_of(chi_square, count) == expected
+
+
+RANDOM = np.random.default_rng(4)
+MATRIX, RESIDUAL = RANDOM.normal(size=(40, 3)), RANDOM.normal(size=40)
+PRIOR, START = np.array([0.5, 2.0, 0.1]), np.array([0.3, -0.2, 0.05])
+THREE = tuple(Direction(f"x{k}", {}, float(prior)) for k, prior in enumerate(PRIOR))
+
+
+@pytest.mark.parametrize("scale", [1.0, 7.0])
+def test_the_fit_is_the_most_likely_under_its_gaussian_priors(scale: float) -> None:
+    """Normal equations of |r - A (x - start)|^2 / scale + |x / prior|^2; the covariance is that without a scale."""
+    found = solve(RESIDUAL, MATRIX, THREE, START, scale)
+    normal = MATRIX.T @ MATRIX + scale * np.diag(PRIOR**-2.0)
+    expected = np.linalg.solve(normal, MATRIX.T @ (RESIDUAL + MATRIX @ START))
+    left = RESIDUAL - MATRIX @ (expected - START)
+    assert found.coefficients == pytest.approx(expected, rel=1e-9)
+    assert found.chi_square == pytest.approx(float(left @ left), rel=1e-9)
+    assert found.cost == pytest.approx(float(left @ left + scale * ((expected / PRIOR) ** 2).sum()), rel=1e-9)
+    assert found.covariance == pytest.approx(np.linalg.inv(MATRIX.T @ MATRIX + np.diag(PRIOR**-2.0)), rel=1e-9)
+
+
+def test_bounds_are_kept() -> None:
+    bounded = (Direction("x", {}, 10.0, lower=0.0, upper=0.2),)
+    up, down = (solve(sense * 5.0 * MATRIX[:, 0], MATRIX[:, :1], bounded, np.zeros(1)) for sense in (1.0, -1.0))
+    assert float(up.coefficients[0]) == pytest.approx(0.2, abs=1e-9)
+    assert float(down.coefficients[0]) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_model_that_misses_more_than_noise_is_fitted_in_the_scale_of_what_is_left() -> None:
+    loud = 10.0 * RESIDUAL
+    sharp = solve(loud, MATRIX, THREE, START)
+    expected = solve(loud, MATRIX, THREE, START, sharp.chi_square / 40)
+    assert solve_in_scale(loud, MATRIX, THREE, START).coefficients == pytest.approx(expected.coefficients, rel=1e-12)
+    assert sharp.chi_square / 40 > 10.0
+
+
+def test_an_error_is_relative_to_the_variation_of_good_samples() -> None:
+    wave = np.sin(np.linspace(0.0, 40.0, 1000))
+    measured, predicted = wave.copy(), 0.9 * wave
+    measured[500], predicted[700] = 50.0, np.nan  # an outlier; out of view
+    kept = np.setdiff1d(np.arange(1000), (500, 700))
+    expected = np.sqrt(np.mean((0.1 * wave[kept]) ** 2)) / np.std(wave[kept])
+    assert channel_error(measured, predicted, 0.01) == pytest.approx(expected, rel=1e-9)
+    assert math.isnan(channel_error(np.full(5, np.nan), np.zeros(5), 0.01))
+    assert overall([0.3, float("nan"), 0.4]) == pytest.approx(math.sqrt(0.125), rel=1e-12)
+    assert math.isnan(overall([]))
