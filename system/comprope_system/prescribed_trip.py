@@ -1,8 +1,8 @@
-"""A rope carried along a jerk-limited trip, without drive and without FMU: what studies and verification run.
+"""Simulation of the rope on a prescribed jerk-limited trip, without drive and FMU, for studies and verification.
 
 The car follows the trip exactly and the counterweight mirrors it. Within an interval the ends follow
-quintics through position, velocity and acceleration at both of its ends, which is the trip itself
-but for the corners of its jerk.
+quintics through position, velocity and acceleration at both of its ends, which equals the trip
+except where its jerk is discontinuous.
 """
 
 from collections.abc import Callable, Iterator
@@ -29,7 +29,7 @@ def trip_of(distance: float, speed: float, acceleration: float, jerk: float, ori
 
 
 def ends_path(model: Base, trip: SCurve | ReferenceTrajectory, begin: float, end: float) -> Floats:
-    """The way of both ends between two times [s], as `CompensationRope.step` takes it."""
+    """Path of both ends between two times [s], in the format of `CompensationRope.step`."""
     height, radius = model.shaft.height, model.sheave.radius
     rows = [_moments(trip.at(time), height, radius) for time in (begin, end)]
     return np.concatenate(rows, axis=1).ravel()

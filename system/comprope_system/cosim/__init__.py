@@ -1,4 +1,4 @@
-"""Co-simulation of drive and rope, as FMUs or directly, in one and the same order."""
+"""Co-simulation of drive and rope, as FMUs or in the same process, in the same order."""
 
 from .master import Connection, Participant, Sample, co_simulate
 

@@ -1,4 +1,4 @@
-"""Where the FMUs are: those in `dist/` if they hold today's code, else built into the user's cache."""
+"""Finds or builds the FMUs: those in `dist/` if they contain the installed code, else in the cache of the user."""
 
 import hashlib
 import sys
@@ -28,7 +28,7 @@ _SOURCES = Path(comprope.__file__).parent
 
 @dataclass(frozen=True)
 class Recipe:
-    """What an FMU is made of: a model, the subpackage of `comprope` it lives in, and what makes it there."""
+    """Source of an FMU: a model, its subpackage of `comprope`, and the entry module."""
 
     interface: ModelInterface
     package: str
@@ -37,12 +37,12 @@ class Recipe:
 
 
 def drive_fmu() -> Path:
-    """The drive's FMU, with the code installed here."""
+    """Path of the drive's FMU with the installed code."""
     return locate(Recipe(drive_interface(), "drive", DRIVE_ENTRY))
 
 
 def rope_fmu(sensors: int, own_effects: tuple[str, ...] = ()) -> Path:
-    """The FMU of a rope with so many sensors and a user's own effects, with the code installed here."""
+    """Path of the FMU of a rope with this number of sensors and these user-defined effects, with the installed code."""
     return locate(_rope_recipe(sensors, own_effects))
 
 
@@ -63,7 +63,7 @@ def locate(recipe: Recipe, dist: Path | None = None) -> Path:
 
 @cache
 def _rope_recipe(sensors: int, own_effects: tuple[str, ...]) -> Recipe:
-    """A rope like the test tower's; sensors and own effects are all that distinguishes one FMU from another."""
+    """Recipe of the rope's FMU; FMUs differ only in the number of sensors and user-defined effects."""
     places = [{"name": f"sensor{k + 1}", "side": "car", "height": 0.0} for k in range(sensors)]
     table = as_table(load(model_path("tower50"))) | {"sensors": places, "own_effects": own_effects}
     model = validated(table, "tower50")
@@ -90,12 +90,12 @@ def _within_package(name: str) -> str:
 
 
 def _sources(recipe: Recipe) -> list[Path]:
-    """The files that an FMU copies: those on top, and the model's own."""
+    """The files copied into an FMU: top-level modules and those of the model."""
     return sorted([*_SOURCES.glob("*.py"), *(_SOURCES / recipe.package).rglob("*.py")])
 
 
 def _digest(recipe: Recipe) -> str:
-    """A name for everything a built FMU depends on."""
+    """Hash of everything that a built FMU depends on."""
     total = hashlib.sha256(repr((recipe.entry, sorted(recipe.data.items()), sys.version)).encode())
     for file in [*_sources(recipe), *sorted((_SOURCES / "fmi").rglob("*.py"))]:
         total.update(file.relative_to(_SOURCES).as_posix().encode() + b"\0" + file.read_bytes())

@@ -1,4 +1,4 @@
-"""An FMU as a participant, stepped through fmpy; whatever it refuses is told in its own words."""
+"""An FMU as a participant, through fmpy; errors carry the message of the FMU."""
 
 import io
 import shutil
@@ -19,14 +19,14 @@ _CASTS: dict[str, Callable[[Any], Any]] = {"Real": float, "Integer": int, "Boole
 
 
 class FmuParticipant:
-    """One instance of an FMI 2.0 co-simulation FMU; to be closed, best by `with`.
+    """One instance of an FMI 2.0 co-simulation FMU, a context manager.
 
-    Raises `InputError` for parameters that the FMU does not have or refuses, `SimulationError` if it cannot
+    Raises `InputError` for unknown or rejected parameters, `SimulationError` if it cannot
     be loaded or a step fails.
     """
 
     def __init__(self, name: str, path: Path, start: Mapping[str, Any]) -> None:
-        """`start` holds values of parameters and inputs by name; others keep the FMU's own."""
+        """`start` contains values of parameters and inputs by name; others have the start values of the FMU."""
         self.name = name
         self._start = dict(start)
         self._messages: list[str] = []
@@ -83,7 +83,7 @@ class FmuParticipant:
             self._instance.doStep(currentCommunicationPoint=time, communicationStepSize=dt)
 
     def close(self) -> None:
-        """Free the instance and remove its unpacked files; harmless when done already."""
+        """Free the instance and remove its unpacked files; may be called repeatedly."""
         instance, self._instance = self._instance, None
         if instance is None:
             return
@@ -114,7 +114,7 @@ class FmuParticipant:
     def _calls(self) -> Iterator[None]:
         """Turn a failed call into an error with the FMU's own message.
 
-        The message comes by the logger; what the FMU writes to standard error besides would only repeat it.
+        The message comes from the logger; the FMU's output to standard error only repeats it.
         """
         self._messages.clear()
         errors = io.StringIO()
@@ -127,7 +127,7 @@ class FmuParticipant:
             raise kind(f"{self.name}: {self._told(errors, error)}") from None
 
     def _told(self, errors: io.StringIO, error: Exception) -> str:
-        """The last line that the FMU logged, else wrote, else what fmpy says."""
+        """The last line logged by the FMU, else written to standard error, else fmpy's message."""
         lines = [line for text in (str(error), errors.getvalue(), *self._messages) for line in text.splitlines() if line.strip()]
         return lines[-1].strip()
 
@@ -144,7 +144,7 @@ class FmuParticipant:
 
 
 def _callbacks(messages: list[str]) -> Any:
-    """FMI callbacks whose logger collects the texts of warnings and errors."""
+    """FMI callbacks whose logger collects the messages of warnings and errors."""
 
     def log(_environment: Any, _instance: bytes, status: int, _category: bytes, message: bytes) -> None:
         if status != fmi2.fmi2OK:

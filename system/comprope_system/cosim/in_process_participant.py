@@ -1,4 +1,4 @@
-"""A model stepped in this process, without an FMU around it, by the same rules and with the same numbers."""
+"""A model as a participant in the same process, without an FMU, with the same results."""
 
 from collections import defaultdict
 from collections.abc import Mapping
@@ -13,7 +13,7 @@ class DirectParticipant:
     """A participant that runs a model's engine as its FMU's face does."""
 
     def __init__(self, name: str, interface: ModelInterface, parameters: Mapping[str, Any]) -> None:
-        """Raises `InputError` for parameters that the model does not have or cannot take."""
+        """Raises `InputError` for unknown or invalid parameters."""
         self.name = name
         self._instance = Instance(interface)
         self._references = {one.name: (reference, one) for reference, one in enumerate(interface.variables)}
@@ -22,7 +22,7 @@ class DirectParticipant:
 
     @property
     def simulator(self) -> Simulator:
-        """What runs the model now; another one once parameters have changed before the first step."""
+        """The present simulator; a new one is created when parameters change before the first step."""
         return self._instance.simulator
 
     def prepare(self, start: float) -> None:

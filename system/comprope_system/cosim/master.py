@@ -1,13 +1,13 @@
-"""The master: steps its participants one after the other and carries values between them.
+"""Co-simulation master: steps its participants sequentially and transfers values between them.
 
 In each communication step from t to t + dt the participants step in their order (Gauss-Seidel).
-An input connected to a participant earlier in the order holds that one's output at t + dt, already
-known; an input connected to a later one holds its output at t. With (drive, rope) as the order, the
-drive steps under the rope's tensions at t, then the rope follows the drive's motion to t + dt. The
-error this makes is of first order in dt, and only in what is fed backward, from rope to drive.
+An input connected to an earlier participant has that participant's output at t + dt; an input
+connected to a later one has its output at t. With the order (drive, rope), the
+drive steps with the tensions of the rope at t, then the rope with the motion of the drive up to t + dt. The
+coupling error is of first order in dt, and only in the values fed back from rope to drive.
 
-Before the first step, in initialization mode, all connections are followed twice in the same order: drive
-gives rope its ends, rope gives drive its tensions at rest, and drive sees them.
+Before the first step, in initialization mode, all connections are evaluated twice in the same order: positions
+of the ends from drive to rope, then static tensions from rope to drive.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -21,11 +21,11 @@ Coupling = Literal["two-way", "one-way"]
 
 
 class Participant(Protocol):
-    """What the master steps: an FMU, a model in this process, or a prescribed motion."""
+    """Interface of a participant: an FMU, a model in the same process, or a prescribed motion."""
 
     @property
     def name(self) -> str:
-        """The name that connections use."""
+        """The name used by connections."""
 
     def prepare(self, start: float) -> None:
         """Enter initialization at the time `start` [s]; raises `InputError` for impossible parameters."""
@@ -34,7 +34,7 @@ class Participant(Protocol):
         """Set inputs by name."""
 
     def outputs(self) -> dict[str, Any]:
-        """All outputs by name, at the time reached."""
+        """All outputs by name at the current time."""
 
     def begin(self) -> None:
         """Leave initialization."""
@@ -45,7 +45,7 @@ class Participant(Protocol):
 
 @dataclass(frozen=True)
 class Connection:
-    """`output` of the participant `source` goes into `input` of the participant `target`."""
+    """Connection of `output` of the participant `source` to `input` of the participant `target`."""
 
     source: str
     output: str
@@ -71,7 +71,7 @@ def co_simulate(
     start: float = 0.0,
     coupling: Coupling = "two-way",
 ) -> Iterator[Sample]:
-    """Run the participants in their order, yielding a sample at the start and after each step.
+    """Co-simulate the participants in their order, yielding a sample at the start and after each step.
 
     `duration` and communication step are in s; the last step ends at or after start + duration.
     With "one-way" coupling, backward connections keep the values they had at the start.
@@ -91,7 +91,7 @@ def co_simulate(
 
 
 def _initialised(participants: Sequence[Participant], connections: Sequence[Connection], start: float) -> Known:
-    """Outputs at the start that agree with each other."""
+    """Consistent initial outputs."""
     known: Known = {}
     for participant in participants:
         participant.prepare(start)
@@ -105,5 +105,5 @@ def _initialised(participants: Sequence[Participant], connections: Sequence[Conn
 
 
 def _inputs(target: str, connections: Sequence[Connection], known: Mapping[str, Values]) -> dict[str, Any]:
-    """What is known by now of the inputs of `target`."""
+    """The inputs of `target` that are known so far."""
     return {one.input: known[one.source][one.output] for one in connections if one.target == target and one.source in known}

@@ -1,4 +1,4 @@
-"""A car that moves as it was measured, in the place of the drive."""
+"""Prescribed motion of car and counterweight, in place of the drive."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,13 +7,13 @@ from ..measurements import Trip
 
 
 class PrescribedMotion:
-    """A participant that gives position, velocity and acceleration of car and counterweight by name.
+    """Participant that outputs position, velocity and acceleration of car and counterweight.
 
-    Its outputs are named as the drive's. It has no inputs, since nothing moves a measured car.
+    Its outputs have the names of the drive's. It has no inputs.
     """
 
     def __init__(self, name: str, trips: Mapping[str, Trip]) -> None:
-        """`trips` by what moves: "car" and "counterweight"."""
+        """`trips` by name: "car" and "counterweight"."""
         self.name = name
         self._trips = dict(trips)
         self._time = 0.0

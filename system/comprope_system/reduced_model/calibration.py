@@ -1,4 +1,4 @@
-"""How far the full model's rope stands off the sheave at rest, speeding up and running: measured on a short ride."""
+"""Calibration of the rope's offset at the sheave by a short trip of the full model: static, and with speed and acceleration."""
 
 from functools import lru_cache
 
@@ -24,7 +24,7 @@ ELSEWHERE = ("building_sway", "attachment_offset", "sheave_eccentricity")  # eff
 
 @lru_cache(maxsize=16)
 def calibrated(model: RopeModel) -> Rope:
-    """A side of the rope with `held` measured on the full model's sheave, in a low shaft; takes a second or two.
+    """A side of the rope with coefficients `held` calibrated by the full model in a low shaft; takes one or two seconds.
 
     Raises `InputError` where the rope does not wrap the sheave.
     """
@@ -53,7 +53,7 @@ def calibrated(model: RopeModel) -> Rope:
 
 
 def _low(model: RopeModel, height: float) -> RopeModel:
-    """The same rope and sheave in a shaft of `height` [m], without what swings it from elsewhere and without sensors."""
+    """The same rope and sheave in a shaft of `height` [m], without other excitation and without sensors."""
     table = as_table(model)
     table["shaft"] = {**table["shaft"], "height": float(height)}
     table["effects"] = {name: part for name, part in table.get("effects", {}).items() if name not in ELSEWHERE}

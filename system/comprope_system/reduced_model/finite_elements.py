@@ -1,8 +1,8 @@
-"""The small rope's shape in finite elements: straight lines between nodes evenly spread from the axle, xi = 0, to the end.
+"""Linear finite elements of the reduced model: equally spaced nodes from the axle, xi = 0, to the end of the rope.
 
-A matrix is held as a band (3, n - 1): each inner node's entries beside the node before it, itself and the node after it; the
-first and the last of these belong to the rope's ends. Mass is half consistent, half lumped, so that waves of six elements and
-longer run as fast as they should.
+A tridiagonal matrix is stored as a band (3, n - 1): for each inner node the entries of the previous node, itself and the next
+one; the first and the last belong to the ends. The mass matrix is the mean of consistent and lumped mass, so that waves of six
+elements and longer have the correct speed.
 """
 
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ class Matrices:
 
 @cache
 def matrices() -> Matrices:
-    """The bands, exact but for the mass."""
+    """The matrices as bands, exact except for the mass."""
     h, a = 1.0 / ELEMENTS, np.arange(ELEMENTS) / ELEMENTS
     pull = np.array([[1.0, -1.0], [-1.0, 1.0]]) / h
     near, far = (h * (0.5 * (1.0 - a) - h * share) for share in (1.0 / 6.0, 1.0 / 3.0))  # of (1 - xi) f
@@ -46,26 +46,26 @@ def matrices() -> Matrices:
 
 
 def _band(parts: Floats) -> Floats:
-    """The band of elements' matrices (n, 2, 2)."""
+    """Assemble element matrices (n, 2, 2) to a band."""
     return np.array([parts[:-1, 1, 0], parts[:-1, 1, 1] + parts[1:, 0, 0], parts[1:, 0, 1]])
 
 
 def whole(band: Floats) -> Floats:
-    """The matrix (n - 1, n - 1) of the inner nodes."""
+    """The full matrix (n - 1, n - 1) of the inner nodes."""
     return np.diag(band[1]) + np.diag(band[0, 1:], -1) + np.diag(band[2, :-1], 1)
 
 
 def times(band: Floats, y: Floats) -> Floats:
-    """The band times what stands at all nodes (n + 1,)."""
+    """Product of a band with values at all nodes (n + 1,)."""
     return np.asarray(band[0] * y[:-2] + band[1] * y[1:-1] + band[2] * y[2:])
 
 
 @cache
 def nodes() -> Floats:
-    """Where the nodes are (n + 1,)."""
+    """Coordinates xi of the nodes (n + 1,)."""
     return np.linspace(0.0, 1.0, ELEMENTS + 1)
 
 
 def at_places(xi: Floats) -> Floats:
-    """The matrix (m, n + 1) that reads places xi (m,) between the nodes."""
+    """Interpolation matrix (m, n + 1) from nodes to coordinates xi (m,)."""
     return np.maximum(0.0, 1.0 - ELEMENTS * np.abs(np.asarray(xi)[:, None] - nodes()))

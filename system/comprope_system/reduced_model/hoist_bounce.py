@@ -1,11 +1,11 @@
-"""Car and counterweight on their hoist ropes while the traction sheave's rim follows the reference.
+"""Vertical vibration of car and counterweight on their hoist ropes while the traction sheave follows the reference.
 
-Each bounces about the rim with the period and damping of the closed loop of servo and hoist with the car where it is:
+Each is an oscillator with the period and damping of the closed loop of servo and hoist at the present car position:
 
-    d'' + 2 z w d' + w^2 d = -a_ref     d: how far the end is ahead of the rim's reference, up for the car
+    d'' + 2 z w d' + w^2 d = -a_ref     d: displacement of the end relative to the rim's reference, up for the car
 
-w and z are those of the loop's pole nearest to sqrt(EA / (L m)) of the end's own rope. What a car's bounce does to the rope it
-does by its acceleration; the rope's pull on the car is left out.
+w and z are those of the loop's pole nearest to sqrt(EA / (L m)) of the end's own rope. The rope is
+excited by the acceleration; its reaction on the car is neglected.
 """
 
 from dataclasses import dataclass
@@ -36,11 +36,11 @@ class Hoist:
     damping: Floats
 
     def period(self, car: float) -> float:
-        """The slower bounce's period [s] with the car at a height [m]."""
+        """The longer of both periods [s] for a car height [m]."""
         return float(2.0 * np.pi / min(np.interp(car, self.heights, one) for one in self.frequency))
 
     def ends(self, moved: Moves) -> tuple[Floats, Floats]:
-        """What the bounce adds to the motion of car and of counterweight: way, speed, acceleration (3, n) each, up positive."""
+        """Vibration of car and counterweight about the reference: displacement, speed, acceleration (3, n), up positive."""
         added = []
         for k, sign in enumerate((1.0, -1.0)):
             w = np.interp(moved.position, self.heights, self.frequency[k])
@@ -50,7 +50,7 @@ class Hoist:
 
 
 def hoist_of(drive: Drive) -> Hoist:
-    """The bounces of a drive's car and counterweight; kept, whatever trips the drive makes."""
+    """Oscillators of car and counterweight for a drive; cached, since independent of the trip."""
     return _hoist(drive.standing)
 
 
@@ -77,7 +77,7 @@ def _bounces(drive: Drive, height: float) -> Floats:
 
 @numba.njit(cache=True)
 def _bounced(dt, a, w, z):  # type: ignore[no-untyped-def]
-    """d, d' and d'' (3, n) by the implicit midpoint rule."""
+    """Response d, d' and d'' (3, n) by the implicit midpoint rule."""
     found, h = np.zeros((3, len(a))), 0.5 * dt
     d = u = 0.0
     for i in range(len(a) - 1):

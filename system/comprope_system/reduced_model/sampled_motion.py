@@ -1,4 +1,4 @@
-"""A drive's course at many times at once: the same as `ReferenceTrajectory.at`, for the search, which asks for thousands."""
+"""Reference trajectory of a drive as arrays over time: the same values as `ReferenceTrajectory.at`, for the search."""
 
 from dataclasses import dataclass
 from math import factorial
@@ -25,12 +25,12 @@ class Moves:
 
     @property
     def time(self) -> Floats:
-        """The times [s]."""
+        """Sample times [s]."""
         return np.asarray(self.dt * np.arange(len(self.position)), float)
 
 
 def moves(course: ReferenceTrajectory, until: float, dt: float) -> Moves:
-    """The course from time zero to `until` [s] or a little longer."""
+    """The trajectory from time zero to `until` [s] or slightly longer."""
     time = np.asarray(dt * np.arange(int(np.ceil(until / dt)) + 1), float)
     total = np.zeros((3, len(time)))
     for delay, share in course.impulses:
@@ -42,7 +42,7 @@ def moves(course: ReferenceTrajectory, until: float, dt: float) -> Moves:
 
 
 def _smoothed(course: ReferenceTrajectory, time: Floats) -> Floats:
-    """Way, speed and acceleration (3, n) of the trip after the moving average."""
+    """Distance, speed and acceleration (3, n) of the trip after the moving average."""
     values = _curve if isinstance(course.trip, FreeCurve) else _trip
     gone, way, speed, acceleration = values(course.trip, time)  # type: ignore[arg-type]
     S = course.smoothing
@@ -53,7 +53,7 @@ def _smoothed(course: ReferenceTrajectory, time: Floats) -> Floats:
 
 
 def _trip(trip: SCurve, time: Floats) -> Floats:
-    """The way's integral, way, speed and acceleration (4, n); the second half mirrors the first."""
+    """Integral of the distance, distance, speed and acceleration (4, n); the second half mirrors the first."""
     distance, half = trip.destination - trip.origin, 0.5 * trip.duration
     elapsed = np.clip(time - trip.start_time, 0.0, trip.duration)
     left = trip.duration - elapsed
@@ -75,7 +75,7 @@ def _begun(trip: SCurve, s: Floats, order: int) -> Floats:
 
 
 def _curve(trip: FreeCurve, time: Floats) -> Floats:
-    """The same for a trip of a free shape."""
+    """The same for a free-form trip."""
     dt, elapsed = trip.duration / PARTS, np.clip(time - trip.start_time, 0.0, trip.duration)
     k = np.minimum((elapsed / dt).astype(int), PARTS - 1)
     t, (a, v, x, gone) = elapsed - k * dt, (np.array(one) for one in trip.knots)

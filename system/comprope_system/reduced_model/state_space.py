@@ -1,8 +1,8 @@
-"""The rope as python-control models at car positions: the small rope at standstill, in its slowest modes.
+"""State-space models of the rope (python-control) for car positions: the reduced model at standstill, in its lowest modes.
 
-States are the modes' amplitudes and rates, of the car's side and then the counterweight's. Inputs are speed and acceleration of
-the car, through what they do to the rope's offset at the sheave; the acceleration's direct part makes the offset's rate a state
-of its own, so that inputs need not be differentiated. Outputs are outward departures from rest at shares of each side's length.
+States are amplitudes and velocities of the modes, of the car side and then of the counterweight side. Inputs are speed and
+acceleration of the car, which change the rope's offset at the sheave; the velocity of the offset is a state, so that inputs need
+not be differentiated. Outputs are outward displacements relative to rest at fractions of the length of each side.
 """
 
 from typing import Any
@@ -23,7 +23,7 @@ FILTER = 20.0  # 1/s: the offset follows speed and acceleration through this lag
 
 
 def rope_model(case: Case, car: float) -> control.StateSpace:
-    """Both sides with the car at `car` [m]: inputs car_speed, car_acceleration; outputs departures [m]; see the module."""
+    """Both sides with the car at `car` [m]: inputs car_speed, car_acceleration; outputs displacements [m]; see the module."""
     parts = [_side(case, side, car) for side in SIDES]
     joined = control.append(*parts)
     both = control.StateSpace(joined.A, joined.B @ np.vstack([np.eye(2), np.eye(2)]), joined.C, np.zeros((len(joined.C), 2)))

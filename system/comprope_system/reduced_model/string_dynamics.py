@@ -1,25 +1,25 @@
-"""One side of the rope while the car travels: a string of changing length, tension and speed, in finite elements.
+"""Reduced model of one side of the rope: a string of variable length, tension and speed, in finite elements.
 
 The side hangs from its end down to the axle. With s the height above the axle, L(t) the side's length, v the rope's speed
 up, xi = s / L, a string of mass rho per length that runs through space with its end obeys
 
     rho D2y/Dt2 + c Dy/Dt = (T y')',   D/Dt = d/dt + (v / L)(1 - xi) d/dxi,   T = N + rho v^2 + rho (g + v') s
 
-N = half the weight on the axle, with half the pulls that turn the sheave and lift it: (J / r^2 + rho pi r) times half the
-difference of both ends' accelerations, (m + rho pi r) times half their sum. What presses the rope on the groove does not
-depend on the speed. The rope's stiffness holds it off the axle's vertical by
+N = half the weight on the axle, plus half the forces that accelerate the sheave: (J / r^2 + rho pi r) times half the
+difference of the accelerations of both ends (rotation), (m + rho pi r) times half their sum (translation). The contact force
+does not depend on the speed. Due to its bending stiffness the rope is displaced at the height of the axle by
 
     b = EI / (2 r N) (g0 + g1 v + g2 v^2 + g3 sgn v)
 
-where g0 is near 1, g1 about -D / (EI sqrt(EI / N)) for a bending damping D, which makes rope that runs off the sheave
-straighten late, and g3 nought but for bending hysteresis; `calibrate.py` measures them on the full model. So what swings the
-rope is b, which follows speed and acceleration, and the tension, which changes its shape. With
-y = b at the axle and 0 at the end the weak form gives, per rho L, with the constant matrices of `elements.py`
+where g0 is near 1, g1 about -D / (EI sqrt(EI / N)) for a bending damping D, which delays the
+straightening of rope leaving the sheave, and g3 zero without bending hysteresis; `calibration.py` determines them with the full
+model. The rope is excited by b, which depends on speed and acceleration, and by the change of tension. With
+y = b at the axle and 0 at the end the weak form gives, per rho L, with the constant matrices of `finite_elements.py`
 
     M y'' + (2 (v/L) G + c/rho M) y' + (N/(rho L^2) K + (v/L)^2 (K - S) + (g + v')/L H + (v' + c/rho v)/L G) y = 0
 
-Left out: the sheave's bounce, tension from swinging, bending away from the sheave, effects other than external damping.
-Unlike the full model it holds only where the rope wraps the sheave, N r^2 > EI / 2.
+Neglected: vertical vibration of the sheave, tension due to lateral motion, bending away from the sheave, effects other than
+external damping. Valid only if the rope wraps the sheave, N r^2 > EI / 2.
 """
 
 from dataclasses import dataclass
@@ -37,14 +37,14 @@ from .finite_elements import ELEMENTS, matrices, nodes, whole
 
 Floats = NDArray[np.float64]
 
-STARTS = 0.02  # m/s: below it friction inside the rope has not turned round yet
+STARTS = 0.02  # m/s: below it internal friction of the rope has not reversed yet
 
 
 @dataclass(frozen=True)
 class Rope:
-    """What one side of a rope is: mass per length [kg/m], weight on the groove of a side [N], the pull that turns the sheave
-    over acceleration [kg], the same that lifts it [kg], bending stiffness [N m2], radius [m], damping over mass [1/s],
-    gravity [m/s2]; `held`: g0 ... g3.
+    """Parameters of one side of the rope: mass per length [kg/m], weight on the groove of a side [N], force per
+    acceleration for rotation and for translation of the sheave [kg], bending stiffness [N m2], radius [m], damping / mass
+    [1/s], gravity [m/s2]; `held`: g0 ... g3.
     """
 
     mass_per_length: float
@@ -58,7 +58,7 @@ class Rope:
     held: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     def offset_at(self, press: Floats, speed: Floats) -> Floats:
-        """How far outward the rope stands off at the axle's height [m], pressed by `press` [N], running up at `speed` [m/s]."""
+        """Outward offset of the rope at the axle's height [m] for a contact force `press` [N] and upward `speed` [m/s]."""
         g0, g1, g2, g3 = self.held
         return (
             self.bending_stiffness
@@ -68,12 +68,12 @@ class Rope:
 
     @property
     def bending_length(self) -> float:
-        """How far its stiffness reaches along the rope from where it is bent [m]: sqrt(EI / N)."""
+        """Bending length [m]: sqrt(EI / N)."""
         return float((self.bending_stiffness / self.weight) ** 0.5)
 
     @property
     def offset(self) -> float:
-        """How far outward the rope stands off at the axle's height, at rest [m]."""
+        """Static outward offset of the rope at the height of the axle [m]."""
         return float(self.offset_at(np.array(self.weight), np.array(0.0)))
 
 
@@ -93,9 +93,9 @@ def rope_of(model: Base) -> Rope:
 
 
 def still_modes(rope: Rope, length: float) -> tuple[Floats, Floats, Floats]:
-    """At standstill: squares of the angular frequencies (k,), modes (n - 1, k) at the inner nodes, stiffness over rho L.
+    """Modes at standstill: squares of the angular frequencies (k,), shapes (n - 1, k) at the inner nodes, stiffness over rho L.
 
-    The modes have unit mass; the slowest is the first.
+    The modes have unit mass and are sorted by increasing frequency.
     """
     M = matrices()
     stiffness = rope.weight / rope.mass_per_length / length**2 * M.K + rope.gravity / length * M.H
@@ -104,13 +104,13 @@ def still_modes(rope: Rope, length: float) -> tuple[Floats, Floats, Floats]:
 
 
 def at_rest(rope: Rope, length: Floats, xi: Floats) -> Floats:
-    """The outward shape at rest (m, n) [m] at places xi (n,) of sides as long as `length` (m,) [m]: (T y')' = 0."""
+    """Static outward shape (m, n) [m] at coordinates xi (n,) for lengths (m,) [m]: (T y')' = 0."""
     slack = rope.mass_per_length * rope.gravity * np.asarray(length)[:, None] / rope.weight
     return np.asarray(rope.offset * (1.0 - np.log1p(slack * xi) / np.log1p(slack)))
 
 
 def sway(rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, press: Floats) -> Floats:
-    """The outward displacement at the nodes (m, n + 1) [m] at times `dt` [s] apart, from rest.
+    """Outward displacement at the nodes (m, n + 1) [m] at time steps `dt` [s], starting from rest.
 
     `length` [m], `speed` and `acceleration` of the end, up positive [m/s, m/s2], `press` [N] on the groove, each (m,).
     """

@@ -1,7 +1,7 @@
-"""How far the rope swings on a trip: on the small linear rope, and on the full model.
+"""Swing of the rope on a trip, with the reduced model and with the full model.
 
-Swing is the departure of either side from the shape it would have at rest with the car where it is, anywhere from a few
-bending lengths above the axle to the rope's end: the farthest during the trip, and half the range after it.
+Swing is the displacement of either side relative to its static shape for the same car position, anywhere from a few bending
+lengths above the axle to the end of the rope: the maximum during the trip, and half the peak-to-peak value after it.
 """
 
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ DT = 0.03  # s, step of the search; the slowest swings take seconds
 
 @dataclass(frozen=True)
 class Swing:
-    """The farthest from rest during the trip and half the range after it [m], on whichever side it is larger."""
+    """Maximum during the trip and half the peak-to-peak value after it [m], of the side with the larger value."""
 
     during: float
     after: float
@@ -40,7 +40,7 @@ class Swing:
 
 @dataclass(frozen=True)
 class Case:
-    """A rope in its shaft as the search sees it, its ends carried by a hoist; without one they follow the course exactly."""
+    """Rope, shaft and hoist for the search; without a hoist the ends follow the trajectory exactly."""
 
     rope: Rope
     height: float
@@ -49,15 +49,15 @@ class Case:
 
     @property
     def clear(self) -> float:
-        """How far above the axle [m] the rope no longer leans on the sheave."""
+        """Height above the axle [m] from which on the rope is clear of the sheave."""
         return CLEAR * self.rope.bending_length
 
     def length(self, side: str, car: Floats) -> Floats:
-        """A side's length [m] with the car at heights `car` [m]."""
+        """Length of a side [m] for car heights `car` [m]."""
         return self.pit + (car if side == "car" else self.height - car)
 
     def ends(self, moved: Moves) -> dict[str, Floats]:
-        """Length [m], speed and acceleration of the end, up positive, and the press on the groove [N] (4, n), by side."""
+        """Length [m], speed and acceleration of the end, up positive, and contact force on the groove [N] (4, n), by side."""
         bounces = self.hoist.ends(moved) if self.hoist else (0.0, 0.0)
         ends = [
             np.array([self.length(side, moved.position), sign * moved.speed, sign * moved.acceleration]) + added
@@ -72,12 +72,12 @@ class Case:
 
 
 def tail(model: RopeModel, destination: float) -> float:
-    """How long [s] to watch the rope after a trip."""
+    """Time [s] after a trip over which the swing is evaluated."""
     return TAIL * max(side_string(model, destination, side).period() for side in SIDES)
 
 
 def displacements(case: Case, moved: Moves) -> dict[str, tuple[Floats, Floats]]:
-    """Lengths (n,) [m] and outward departures from rest (n, places) [m] on the small rope, by side."""
+    """Lengths (n,) [m] and outward displacements relative to rest (n, places) [m] of the reduced model, by side."""
     found = {}
     for side, (length, speed, acceleration, press) in case.ends(moved).items():
         outward = sway(case.rope, moved.dt, length, speed, acceleration, press)[:, READ]
@@ -86,20 +86,20 @@ def displacements(case: Case, moved: Moves) -> dict[str, tuple[Floats, Floats]]:
 
 
 def small_swing(case: Case, course: ReferenceTrajectory, watched: float, dt: float = DT) -> Swing:
-    """The swing on a course and `watched` [s] after it, on the small rope."""
+    """Swing of the reduced model during a trajectory and `watched` [s] after it."""
     moved = moves(course, course.end_time + watched, dt)
     sides = displacements(case, moved).values()
     return larger([swing_of(case, moved.time, course.end_time, length, departure) for length, departure in sides])
 
 
 def swing_of(case: Case, time: Floats, end: float, length: Floats, departure: Floats, places: Floats = PLACES) -> Swing:
-    """The swing of a side from its departures (n, places) and lengths (n,); moments without the rope (NaN) do not count."""
+    """Swing of a side from its displacements (n, places) and lengths (n,); NaN (rope not there) is ignored."""
     seen = np.where(length[:, None] * places >= case.clear, departure, np.nan)
     return spread(seen, time > end)
 
 
 def spread(seen: Floats, after: NDArray[np.bool_]) -> Swing:
-    """The farthest and, after the trip, half the range of departures (n, places) that may be NaN."""
+    """Maximum during the trip and half the peak-to-peak value after it, of displacements (n, places) that may be NaN."""
     during = np.where(np.isfinite(seen), np.abs(seen), 0.0).max()
     rest = seen[after]
     rest = rest[:, np.isfinite(rest).all(axis=0)]
@@ -107,12 +107,12 @@ def spread(seen: Floats, after: NDArray[np.bool_]) -> Swing:
 
 
 def larger(found: list[Swing]) -> Swing:
-    """The larger of each."""
+    """The larger of both values, during and after the trip separately."""
     return Swing(max(one.during for one in found), max(one.after for one in found))
 
 
 def full_swing(model: RopeModel, case: Case, course: ReferenceTrajectory, watched: float) -> tuple[Swing, dict[str, Floats]]:
-    """The swing on the full model, ends carried along the course exactly; and time [s] and departures by side."""
+    """Swing of the full model, the ends following the trajectory exactly; and time [s] and displacements by side."""
 
     def look(rope: CompensationRope) -> Floats:
         axle, n, q = -model.shaft.pit, rope.n, rope.state.q

@@ -1,1 +1,1 @@
-"""Controllers chosen against the rope: trips and shapers that leave it swinging least, found on a small linear rope."""
+"""Optimisation of trip profiles, input shapers and servo gains for the smallest swing of the rope."""

@@ -1,4 +1,4 @@
-"""The result of `comprope_system.tune`: tuned trips, one controller for all of them, and the files that install them."""
+"""The result of `comprope_system.tune`: tuned trips, one controller for all of them, and their parameter files."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ PAGE, RESULT, MODELS, CONTROLLER = "tuning.html", "result.json", "rope_models.js
 
 @dataclass(frozen=True, repr=False)
 class TuningResult(Result):
-    """Tuned trips with their drives.
+    """Result of a tuning: trips with their drives.
 
     `trips` are the trips as JSON holds them: times in s, swings in m as [during, after] the trip. `servo` has the present and the
     chosen gains, `controller` what is known of the one drive for all trips, None if no kind of trip is so fast. `drives` are the
@@ -65,7 +65,7 @@ class TuningResult(Result):
         return pd.DataFrame(rows, columns=["origin", "destination", "factor", "travel_time", *swings, "kind"])
 
     def save_html(self, path: str | Path) -> None:
-        """Write the page with tables and pictures, whole or not at all."""
+        """Write the HTML page, completely or not at all."""
         save_page(path, report.TITLE, report.LEAD, report.sections(self.to_json()))
 
     def save_files(self, folder: str | Path) -> None:
@@ -82,7 +82,7 @@ class TuningResult(Result):
 
 
 def save_drive(path: Path, drive: Drive, heading: str) -> None:
-    """Write profile, curve, shaper and servo of a drive as a parameter file, whole or not at all."""
+    """Write profile, curve, shaper and servo of a drive as a parameter file, completely or not at all."""
     table = drive.model_dump(include=CHOSEN)
     if not drive.curve.used:
         del table["curve"]

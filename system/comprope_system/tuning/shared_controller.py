@@ -1,4 +1,4 @@
-"""One controller for all trips: the kind of trip, its shares of the limits and the shaper's period that suit them all."""
+"""One controller for all trips: the family of profiles, its parameters and the shaper's period for all trips together."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ KEPT = 1.0  # of its present swing: what no trip should pass
 
 @dataclass(frozen=True)
 class Joint:
-    """The chosen drive, its kind, its travel times [s] and its swings on the small rope by trip, and each kind's cost."""
+    """The chosen drive, its family, travel times [s] and reduced-model swings by trip, and the cost of each family."""
 
     drive: Drive
     kind: str
@@ -29,9 +29,9 @@ class Joint:
 
 
 def joint(tasks: Sequence[Task], extra: float) -> Joint | None:
-    """The drive that swings the rope least over all trips, taking `extra` of their present times more in the mean.
+    """The drive with the least swing over all trips, with travel times increased by the fraction `extra` in total.
 
-    None where no kind of trip is so fast.
+    None if no family is so fast.
     """
     present = [course_of(task.present, task.way) for task in tasks]
     time = (1.0 + extra) * sum(one.duration for one in present)
@@ -59,7 +59,7 @@ def joint(tasks: Sequence[Task], extra: float) -> Joint | None:
 
 
 def told(found: Joint, full: Sequence[Any]) -> dict[str, Any]:
-    """As JSON holds it, with the swings of the FMUs."""
+    """The result for JSON, with the swings simulated by the FMUs."""
     return {
         "kind": found.kind, "times": found.times, "costs": dict(found.costs),
         "small": [[one.during, one.after] for one in found.swings], "full": list(full),

@@ -1,4 +1,4 @@
-"""One trip to tune, and what is told of a drive on it."""
+"""Definition of one trip to tune, and the evaluation of a drive on it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,8 +24,8 @@ class Task:
     """One trip to tune.
 
     Model, drive with the gains to use and the present one, the way, travel times over the shortest one, the weight of the swing
-    after the trip, the spread of the sheave's mass to be prepared for, and which of the times is installed and shown: the one
-    nearest to `chosen`, or the shortest that swings less than `limit` [m] if there is one.
+    after the trip, the range of the sheave's mass to consider, and which of the times is validated with FMUs and shown: the one
+    closest to `chosen`, or the shortest with a swing below `limit` [m] if there is one.
     """
 
     model: RopeModel
@@ -40,35 +40,35 @@ class Task:
 
     @property
     def watched(self) -> float:
-        """How long [s] to watch after the trip."""
+        """Time [s] after the trip over which the swing is evaluated."""
         return tail(self.model, self.way.destination)
 
     @property
     def hoist(self) -> Hoist:
-        """The bounces of car and counterweight under the present servo."""
+        """Vertical vibration of car and counterweight with the present servo."""
         return hoist_of(self.drive)
 
     def case(self, mass: float = 1.0) -> Case:
-        """The small rope with the sheave's mass times `mass`."""
+        """Reduced model with the sheave's mass multiplied by `mass`."""
         return case_of(heavier(self.model, mass), self.hoist)
 
     def cases(self) -> list[Case]:
-        """The ropes that the search judges by."""
+        """The ropes for which the search evaluates a drive."""
         return [self.case()] + [self.case(1.0 + sign * self.spread) for sign in (-1.0, 1.0) if self.spread]
 
 
 def case_of(model: RopeModel, hoist: Hoist | None = None) -> Case:
-    """The model's small rope in its shaft."""
+    """Reduced model of the rope in its shaft."""
     return Case(calibrated(model), model.shaft.height, model.shaft.pit, hoist)
 
 
 def heavier(model: RopeModel, factor: float) -> RopeModel:
-    """The model with the sheave's mass and inertia times a factor."""
+    """The model with mass and inertia of the sheave multiplied by a factor."""
     return model if factor == 1.0 else with_changes(model, with_sheave(model, model.sheave.mass * factor), "sheave")
 
 
 def periods(model: RopeModel) -> tuple[float, float]:
-    """The rope's slowest period [s] with the car at a terminal landing and half-way up."""
+    """Longest natural period [s] of the rope with the car at a terminal landing and at mid-height."""
     height = model.shaft.height
     return side_string(model, 0.0).period(), side_string(model, 0.5 * height).period()
 
@@ -83,7 +83,7 @@ def as_case(task: Task) -> dict[str, Any]:
 
 
 def told_of(task: Task, drive: Drive, kind: str, small: Swing) -> dict[str, Any]:
-    """A drive with its travel time and its swings on the small rope and on the full model."""
+    """A drive with its travel time and its swings with the reduced and the full model."""
     course = course_of(drive, task.way)
     full = installed(task.model, task.case(), drive, task.way, task.watched, direct=True).swing()
     return {
@@ -93,5 +93,5 @@ def told_of(task: Task, drive: Drive, kind: str, small: Swing) -> dict[str, Any]
 
 
 def slowest_bounce(task: Task) -> float:
-    """The slowest bounce [s] on the way."""
+    """Longest period of the vertical vibration of the car during the trip [s]."""
     return max(task.hoist.period(height) for height in (task.way.origin, task.way.destination))

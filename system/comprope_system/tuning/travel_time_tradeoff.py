@@ -1,4 +1,4 @@
-"""What time a quiet rope costs: the fastest trip that leaves a share of the present swing after it."""
+"""Travel time needed for less residual vibration: the fastest trip with a given fraction of the present swing after it."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -19,7 +19,7 @@ LONGEST = 4.0  # of the shortest travel time
 
 
 def saved(task: Task, shares: Sequence[float], after: float) -> list[dict[str, Any]]:
-    """The least travel time found that leaves each share of the present swing `after` the trip [m], full model."""
+    """Shortest travel time found for each fraction of the present swing `after` the trip [m], full model."""
     quietest = _Quietest(task)
     return [_time_for(task, quietest, share, after) for share in shares]
 
@@ -27,9 +27,9 @@ def saved(task: Task, shares: Sequence[float], after: float) -> list[dict[str, A
 def sooner(
     found: Sequence[Mapping[str, Any]], points: Sequence[Mapping[str, Any]], present: Mapping[str, Any]
 ) -> list[Mapping[str, Any]]:
-    """What was found for each share, or the fastest trip of the front that leaves no more on the full model, if it is sooner.
+    """The trip found for each fraction, or a faster one of the trade-off curve that meets it on the full model.
 
-    `present` is the present trip; a trip found that leaves more than its share on the full model gives way to any that does not.
+    `present` is the present trip; a trip that exceeds its fraction on the full model is replaced by any that does not.
     """
     told = [point[key] for point in points for key in ("s_curve", "tuned")]
     return [_soonest(one, told, one["share"] * present["full"][1]) for one in found]
@@ -41,7 +41,7 @@ def _soonest(found: Mapping[str, Any], others: Sequence[Mapping[str, Any]], most
 
 
 class _Quietest:
-    """The drive that leaves least swing after a trip of some factor of the present travel time, on the small rope."""
+    """The drive with the least swing after a trip, as a function of the travel time, with the reduced model."""
 
     def __init__(self, task: Task) -> None:
         self.task, self.known = task, dict[float, tuple[Drive | None, float]]()
@@ -50,7 +50,7 @@ class _Quietest:
         self.goal, self.after = Goal(0.05 / own.during, 0.95 / own.after), own.after
 
     def __call__(self, factor: float) -> tuple[Drive | None, float]:
-        """The drive and its swing after the trip over the present one's; infinite where no curve is so fast."""
+        """The drive and its swing after the trip relative to the present one; infinite if no curve is so fast."""
         if factor not in self.known:
             task, case = self.task, self.task.case()
             near = min(
@@ -69,9 +69,9 @@ def _first(pair: tuple[float, Drive | None]) -> float:
 
 
 def _time_for(task: Task, quietest: _Quietest, share: float, after: float) -> dict[str, Any]:
-    """The fastest trip found that leaves the share on the full model; if none does, the last one looked at.
+    """The fastest trip found that meets the fraction on the full model; if none does, the last one evaluated.
 
-    Searched on the small rope, and again for a share corrected by what the full model made of it.
+    Searched with the reduced model, and again with a fraction corrected by the result of the full model.
     """
     found: list[dict[str, Any]] = []
     asked = AIM * share
@@ -88,7 +88,7 @@ def _time_for(task: Task, quietest: _Quietest, share: float, after: float) -> di
 
 
 def _fastest(quietest: _Quietest, asked: float) -> Drive | None:
-    """The drive of the shortest travel time that leaves `asked` of the present swing on the small rope, by bisection."""
+    """The drive of shortest travel time for the fraction `asked` of the present swing, with the reduced model, by bisection."""
     low = high = 1.0
     while high < LONGEST and quietest(high := 1.2 * high)[1] > asked:
         low = high

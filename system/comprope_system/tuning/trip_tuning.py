@@ -1,4 +1,4 @@
-"""The tuning of one trip: for each travel time the best S-curve and the best of all other trips, judged on the full model."""
+"""Tuning of one trip: for each travel time the best S-curve and the best of all other families, evaluated with the full model."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -38,7 +38,7 @@ def tuned_trip(case: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def tuning(task: Task) -> dict[str, Any]:
-    """Everything found about a trip, as JSON holds it: times in s, swings in m as [during, after]."""
+    """All results of a trip for JSON: times in s, swings in m as [during, after]."""
     present = course_of(task.drive, task.way)
     own = small_swing(task.case(), present, task.watched)
     if own.after <= 0.0 or own.during <= 0.0:
@@ -57,14 +57,14 @@ def tuning(task: Task) -> dict[str, Any]:
 
 
 def _chosen(task: Task, points: Sequence[dict[str, Any]]) -> dict[str, Any] | None:
-    """The point that is installed; None where a limit is not met, or there is no point."""
+    """The point that is validated with FMUs; None if no point meets the limit."""
     if task.limit is not None:
         return next((one for one in points if max(one["tuned"]["full"]) <= task.limit), None)
     return min(points, key=lambda one: abs(one["factor"] - task.chosen), default=None)
 
 
 def _point(task: Task, factor: float, goal: Goal) -> dict[str, Any] | None:
-    """The best S-curve and the best other trip of a travel time; None where no other is so fast."""
+    """The best S-curve and the best other trip for a travel time; None if no other is so fast."""
     time = factor * course_of(task.drive, task.way).duration
     search = _search(task, time, goal)
     curves = search.best("S-curve", count=CURVES)
@@ -97,7 +97,7 @@ def _search(task: Task, time: float, goal: Goal) -> Search:
 
 
 def _others(task: Task, time: float, goal: Goal, s_curve: Candidate) -> list[tuple[str, Drive, Swing]]:
-    """The best of each other kind, with its swing on the nominal small rope."""
+    """The best of each other family, with its swing of the nominal reduced model."""
     found, search = [], _search(task, time, goal)
     for kind in KINDS:
         if kind != "S-curve":
@@ -112,12 +112,12 @@ def _others(task: Task, time: float, goal: Goal, s_curve: Candidate) -> list[tup
 
 
 def _period(task: Task) -> float:
-    """The slowest period [s] of either side with the car at the destination."""
+    """Longest natural period [s] of either side with the car at the destination."""
     return max(side_string(task.model, task.way.destination, side).period() for side in SIDES)
 
 
 def _bound(task: Task, factors: Sequence[float]) -> dict[str, Any]:
-    """The least that the spectrum allows at each travel time, and the least time for each share of the present swing."""
+    """Lower bound of the spectrum at each travel time, and of the travel time for each fraction of the present swing."""
     present, period = course_of(task.drive, task.way), _period(task)
     own = lower_bound.spectrum(present, period)
     least = [lower_bound.least_spectrum(task.drive, task.way, factor * present.duration, period) / own for factor in factors]
@@ -143,7 +143,7 @@ def drive_of(task: Task, told: Mapping[str, Any]) -> Drive:
 
 
 def _installed(task: Task, point: Mapping[str, Any]) -> dict[str, Any]:
-    """The present drive, the best S-curve and the tuned drive of a point as FMUs with the rope's FMU; traces for the picture."""
+    """Simulation of the present drive, the best S-curve and the tuned drive of a point with FMUs; traces for the figure."""
     drives = {"present": task.present, "s_curve": drive_of(task, point["s_curve"]), "tuned": drive_of(task, point["tuned"])}
     told = {}
     for name, drive in drives.items():
@@ -164,7 +164,7 @@ def _shown(task: Task, trace: Trace, drive: Drive) -> dict[str, Any]:
 
 
 def _robust(task: Task, point: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Swings on the full model with the sheave a tenth lighter and heavier."""
+    """Swings of the full model with the sheave 10 % lighter and heavier."""
     found = []
     for factor in (0.9, 1.1):
         model, case = heavier(task.model, factor), task.case(factor)

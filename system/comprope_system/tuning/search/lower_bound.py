@@ -1,9 +1,9 @@
-"""What no trip can do better: the least that any acceleration profile within the limits leaves at a fixed period.
+"""Lower bound of the residual vibration at a fixed period for any acceleration profile within the limits.
 
-A swing of angular frequency w is left in proportion to the spectrum of the acceleration there, w |V(w)| with V that of the
-speed. Of all profiles of a duration one that is its own mirror image leaves least (the mean of any and its mirror image leaves
-no more), so that the least is a linear program. For a car that never goes back, a trip shorter than half a period leaves
-cos(pi T / period) of what a blow would, whatever its limits: it is too short to hide.
+The residual vibration of angular frequency w is proportional to the spectrum of the acceleration, w |V(w)| with V that of the
+speed. The minimum over all profiles of a duration is attained by a symmetric one (the mean of any profile and its mirror image
+is at least as good), so that it is the solution of a linear program. For a car that never reverses, a trip shorter than half a
+period leaves at least cos(pi T / period) of the vibration of an impulse, whatever its limits.
 """
 
 from math import pi
@@ -22,14 +22,14 @@ LONGEST = 6.0  # of the shortest time: beyond that nothing is looked for
 
 
 def spectrum(course: ReferenceTrajectory, period: float) -> float:
-    """|V(w)| over the distance of a course, 1 for a blow, at the angular frequency of `period` [s]."""
+    """|V(w)| / distance of a trajectory, 1 for an impulse, at the angular frequency of `period` [s]."""
     moved = moves(course, course.end_time, 0.005)
     distance = abs(course.destination - course.origin)
     return float(abs(np.sum(moved.speed * np.exp(-2j * pi * moved.time / period)) * moved.dt) / distance)
 
 
 def least_spectrum(drive: Drive, way: Way, time: float, period: float) -> float:
-    """The least |V(w)| over the distance of any trip of `time` [s] within the drive's limits; infinite where none is so fast."""
+    """Minimum of |V(w)| / distance over all trips of `time` [s] within the drive's limits; infinite if none is so fast."""
     own, dt, distance = drive.profile, 0.5 * time / PARTS, way.distance
     t = dt * np.arange(PARTS + 1) - 0.5 * time  # the first half: its speeds are those of the second, mirrored
     weight = dt * np.ones(PARTS + 1)
@@ -47,7 +47,7 @@ def least_spectrum(drive: Drive, way: Way, time: float, period: float) -> float:
 
 
 def least_time(drive: Drive, way: Way, course: ReferenceTrajectory, period: float, share: float) -> float:
-    """The shortest time [s] of any trip that leaves at most `share` of what `course` leaves; infinite if none is found."""
+    """Shortest time [s] of a trip with at most `share` of the residual vibration of `course`; infinite if none is found."""
     allowed = share * spectrum(course, period)
     low, high = course.duration * 0.98, course.duration * LONGEST
     if least_spectrum(drive, way, high, period) > allowed:
@@ -59,5 +59,5 @@ def least_time(drive: Drive, way: Way, course: ReferenceTrajectory, period: floa
 
 
 def too_short(time: float, period: float) -> float:
-    """The share of a blow's swing that a trip of `time` [s] leaves at least, limits or none; 0 from half a period on."""
+    """Lower bound of the residual vibration of a trip of `time` [s] relative to an impulse; 0 from half a period."""
     return max(0.0, float(np.cos(pi * time / period))) if time < 0.5 * period else 0.0

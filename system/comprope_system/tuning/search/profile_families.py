@@ -1,7 +1,7 @@
-"""Kinds of trips to search among, each a few shares between 0 and 1, and the drive that a choice of them makes.
+"""Families of trip profiles, each with a few normalised parameters between 0 and 1, and the drive that results from them.
 
-The shares are those of the limits of speed and jerk, of a moving average, of the shaper's period; the acceleration follows
-from the travel time asked for.
+The parameters scale the limits of speed and jerk, the moving average and the period of the shaper; the acceleration follows
+from the travel time.
 """
 
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ KINDS: Mapping[str, tuple[int, float, bool]] = {  # impulses, tolerance, smoothi
 
 @dataclass(frozen=True)
 class Way:
-    """A trip between two heights [m], and the rope's periods [s] with the car about a terminal landing and half-way up."""
+    """A trip between two heights [m], and the rope's natural periods [s] with the car near a landing and at mid-height."""
 
     origin: float
     destination: float
@@ -30,18 +30,18 @@ class Way:
 
     @property
     def distance(self) -> float:
-        """How far [m]."""
+        """Distance [m]."""
         return abs(self.destination - self.origin)
 
 
 def names(kind: str) -> tuple[str, ...]:
-    """The shares that a kind of trip is chosen by."""
+    """Names of the parameters of a family."""
     impulses, _, smooth = KINDS[kind]
     return ("speed", "jerk", *(["smoothing"] if smooth else []), *(["period"] if impulses > 1 else []))
 
 
 def drive_for(drive: Drive, kind: str, shares: Mapping[str, float], periods: tuple[float, float], acceleration: float) -> Drive:
-    """The drive with profile and shaper of a kind; `shares` of the drive's own limits, the average's in s / 10 of a period."""
+    """The drive with profile and shaper of a family; `shares` of the drive's limits, the average in tenths of a period."""
     impulses, tolerance, _ = KINDS[kind]
     own, factor = drive.profile, shares.get("period", 1.0)
     smoothing = shares.get("smoothing", 0.0) * periods[0]
@@ -57,12 +57,12 @@ def drive_for(drive: Drive, kind: str, shares: Mapping[str, float], periods: tup
 
 
 def course_of(drive: Drive, way: Way, start: float = START) -> ReferenceTrajectory:
-    """The course of a drive along a way."""
+    """Reference trajectory of a drive on a trip."""
     return reference_trajectory(drive, plan_s_curve(drive.profile, way.origin, way.destination, start))
 
 
 def drive_in_time(drive: Drive, kind: str, shares: Mapping[str, float], ways: list[Way], time: float) -> Drive | None:
-    """The drive of the shares that takes `time` [s] for all ways together; None where it cannot be so fast.
+    """The drive with these parameters whose trips take `time` [s] in total; None if it cannot be so fast.
 
     The acceleration is found by bisection, within the drive's own limit.
     """

@@ -1,4 +1,4 @@
-"""The search: quasi-random shares of a kind of trip, then the best of them improved, all on the small rope."""
+"""Search with the reduced model: quasi-random samples of the parameters of a family, then local optimisation of the best."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -25,7 +25,7 @@ ALIKE = 1e-2  # of a cost: nearer than that too, however far the shares: a short
 
 @dataclass(frozen=True)
 class Candidate:
-    """A kind of trip with its shares, the drive they make, and its swings and cost on the small rope."""
+    """A family with its parameters, the resulting drive, and its swings and cost with the reduced model."""
 
     kind: str
     shares: Mapping[str, float]
@@ -36,7 +36,7 @@ class Candidate:
 
 @dataclass
 class Search:
-    """One search: trips of a drive along `ways` that take `time` [s] together, judged by `judge` and `cost`."""
+    """A search over trips of a drive on `ways` that take `time` [s] in total, evaluated by `judge` and `cost`."""
 
     drive: Drive
     ways: list[Way]
@@ -46,9 +46,9 @@ class Search:
     tried: dict[tuple[float, ...], Candidate] = field(default_factory=dict)
 
     def best(self, kind: str, starts: Sequence[Mapping[str, float]] = (), count: int = 1) -> list[Candidate]:
-        """The best candidates of a kind, best first, unlike each other; none where no trip of the kind is so fast.
+        """The best distinct candidates of a family, best first; empty if no trip of the family is so fast.
 
-        `starts` are shares to begin with besides the quasi-random ones.
+        `starts` are additional initial parameters.
         """
         self.tried = {}
         keys = names(kind)
@@ -60,7 +60,7 @@ class Search:
         return _unlike(self.tried.values(), keys, count)
 
     def _still(self, key: str) -> float:
-        """A share that changes least."""
+        """Parameter value with the smallest change of the profile."""
         return SHARES[key][0] if key == "smoothing" else 1.0
 
     def _try(self, kind: str, keys: tuple[str, ...], point: Floats) -> float:
@@ -91,7 +91,7 @@ def _samples(keys: tuple[str, ...]) -> Floats:
 
 
 def _unlike(candidates: Iterable[Candidate], keys: tuple[str, ...], count: int) -> list[Candidate]:
-    """The cheapest candidates, each with some share, and a cost, that differs from those before it."""
+    """The candidates of lowest cost that differ from each other in a parameter and in cost."""
     found: list[Candidate] = []
     for one in sorted(candidates, key=lambda each: each.cost):
         if all(

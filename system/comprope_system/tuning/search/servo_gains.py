@@ -1,4 +1,4 @@
-"""Servo gains: those that damp the car's bounce most and keep the margins of the loop."""
+"""Servo gains that maximise the damping of the car's vertical vibration subject to stability margins."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -19,7 +19,7 @@ DAMPING = (0.7, 1.2)
 
 @dataclass(frozen=True)
 class Gains:
-    """A servo with the worst of its margins over the car's positions, and the slower bounce's mean damping ratio over these."""
+    """A servo with its worst margins over car positions, and the mean damping ratio of the slower vibration."""
 
     servo: Servo
     gain: float
@@ -29,7 +29,7 @@ class Gains:
 
     @property
     def kept(self) -> bool:
-        """Whether the margins are those asked for."""
+        """Whether the required margins are met."""
         return self.gain >= LEAST_GAIN and self.phase >= LEAST_PHASE and self.delay >= LEAST_DELAY
 
     def told(self) -> dict[str, float]:
@@ -39,7 +39,7 @@ class Gains:
 
 
 def gains_of(drive: Drive) -> Gains:
-    """The margins of a drive's servo: worst factor by which the gain may rise or fall, phase [degrees], delay [s]."""
+    """Margins of a drive's servo: worst gain margin up or down, phase [degrees], delay [s]."""
     places = (0.0, 0.5 * drive.shaft.height, drive.shaft.height)
     found: Sequence[Margins] = [margins(drive, place) for place in places]
     gain = min(min(one.gain_rise, one.gain_fall) for one in found)
@@ -48,7 +48,7 @@ def gains_of(drive: Drive) -> Gains:
 
 
 def best_gains(drive: Drive) -> Gains:
-    """The gains near the present ones that damp the bounces most within the margins; the present ones where none are better."""
+    """The gains with the highest damping within the margins, near the present ones; the present ones if none are better."""
     present = gains_of(drive)
     for one in sorted(_near(drive), key=_slow_damping, reverse=True):
         if present.kept and _slow_damping(one) <= present.bounce:
@@ -70,7 +70,7 @@ def _near(drive: Drive) -> list[Drive]:
 
 
 def _slow_damping(drive: Drive) -> float:
-    """The mean damping ratio of the slower bounce over the car's positions."""
+    """Mean damping ratio of the slower vibration over car positions."""
     hoist = hoist_of(drive)
     slower = np.argmin(hoist.frequency, axis=0)
     return float(hoist.damping[slower, np.arange(len(slower))].mean())

@@ -1,9 +1,9 @@
-"""The best trip of a free shape: a sequence of linear programs on the small rope's response to the shape.
+"""Optimisation of a free-form trip by sequential linear programming with the reduced model.
 
-Near a shape the rope's departures from rest are linear in the accelerations at its knots. Each program chooses the change of
-these that makes a weighted sum of the largest departures during and after the trip least, within the limits of speed,
-acceleration and jerk, the distance and the travel time kept; changes are bounded, and the bound shrinks when a program promised
-what the rope does not keep.
+The displacement of the rope is linearised in the accelerations at the knots. Each linear program computes the change of
+these that minimises a weighted sum of the largest displacements during and after the trip, subject to the limits of speed,
+acceleration and jerk, the distance and the travel time. Changes are bounded by a trust region, which is reduced when the
+predicted improvement is not attained.
 """
 
 from collections.abc import Sequence
@@ -35,21 +35,21 @@ EXCESS = 10.0
 
 @dataclass(frozen=True)
 class Goal:
-    """What counts: the weights [1/m] of the largest departures during and after the trip, and what neither should pass [m]."""
+    """Objective: weights [1/m] of the largest displacements during and after the trip, and a cap for both [m]."""
 
     during: float
     after: float
     caps: Swing = Swing(np.inf, np.inf)  # noqa: RUF009 -- frozen
 
     def cost(self, swing: Swing) -> float:
-        """The weighted sum; what is above a cap counts EXCESS times more."""
+        """Weighted sum of the swings; the part above a cap has EXCESS times the weight."""
         over = max(swing.during - self.caps.during, 0.0), max(swing.after - self.caps.after, 0.0)
         return self.during * (swing.during + EXCESS * over[0]) + self.after * (swing.after + EXCESS * over[1])
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Rows of the programs' inequalities (m, k) over the knots' accelerations and their limits (m,); and the way's row (k,)."""
+    """Inequality constraints (m, k) of the knots' accelerations with limits (m,); and the row of the distance (k,)."""
 
     rows: Floats
     most: Floats
@@ -67,11 +67,11 @@ def free_drive(
     first: ReferenceTrajectory,
     smoothing: float = 0.0,
 ) -> Drive | None:
-    """The drive whose curve swings the rope least on a way that takes `time` [s], begun at the accelerations of `first`.
+    """The drive with the free-form curve of least swing for a trip of `time` [s], starting from the accelerations of `first`.
 
-    `smoothing` [s] of the time belong to a moving average over the curve.
+    The time includes `smoothing` [s] of a moving average.
 
-    With several cases (ropes) the worst of them counts. None where no curve of PARTS parts is so fast.
+    With several cases (ropes) the worst one counts. None if no curve of PARTS intervals is so fast.
     """
     limits = _limits(drive, way, time - smoothing)
     knots = np.array([first.at(first.start_time + first.duration * k / PARTS).acceleration for k in range(PARTS + 1)])
@@ -96,13 +96,13 @@ def free_drive(
 
 
 class _Seen:
-    """The rope's departures under accelerations at the knots."""
+    """Displacements of the rope for accelerations at the knots."""
 
     def __init__(self, way: Way, time: float, smoothing: float, cases: Sequence[Case], watched: float) -> None:
         self.way, self.time, self.smoothing, self.cases, self.watched = way, time, smoothing, cases, watched
 
     def departures(self, a: Floats) -> tuple[Floats, Floats]:
-        """Times (n,) and departures (cases and sides, n, places) [m], zero near the sheave."""
+        """Times (n,) and displacements (cases and sides, n, places) [m], zero near the sheave."""
         trip = FreeCurve(START, self.way.origin, self.way.destination, self.time - self.smoothing, tuple(a / np.abs(a).max()))
         course = ReferenceTrajectory(trip, self.smoothing)
         moved, found = moves(course, course.end_time + self.watched, DT), []
@@ -117,9 +117,9 @@ class _Seen:
         return larger([spread(one, time > START + self.time) for one in found])
 
     def response(self, a: Floats, nudge: float) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-        """Departures (m,), their derivatives by the knots but the first and last (m, k), and which are after the trip (m,).
+        """Displacements (m,), their derivatives with respect to the inner knots (m, k), and which are after the trip (m,).
 
-        Only those that count: peaks in time at every place, and some moments and places besides.
+        Selected values only: peaks in time at every place, and a coarse grid of times and places.
         """
         time, base = self.departures(a)
         late = np.broadcast_to((time > START + self.time)[None, :, None], base.shape)
@@ -133,7 +133,7 @@ class _Seen:
 
 
 def _telling(departures: Floats) -> NDArray[np.bool_]:
-    """Which departures (sides, n, places) are large, and either a peak in time or among the moments and places looked at."""
+    """Selected displacements (sides, n, places): large ones that are peaks in time or on the evaluation grid."""
     size = np.abs(departures)
     peak = np.zeros(size.shape, bool)
     peak[:, 1:-1] = (size[:, 1:-1] >= size[:, :-2]) & (size[:, 1:-1] >= size[:, 2:])
@@ -154,7 +154,7 @@ def _limits(drive: Drive, way: Way, time: float) -> Limits:
 
 
 def _feasible(a: Floats, limits: Limits, way: Way, most: float) -> Floats | None:
-    """The accelerations nearest to `a` within the limits that stop the car and cover the distance; still at both ends."""
+    """The accelerations closest to `a` that meet the limits, stop the car and cover the distance; zero at both ends."""
     k = PARTS - 1
     eye, reach = np.eye(k), (1.0 - MARGIN) * most
     rows = np.vstack(
@@ -168,7 +168,7 @@ def _feasible(a: Floats, limits: Limits, way: Way, most: float) -> Floats | None
 
 
 def _program(seen: _Seen, a: Floats, limits: Limits, goal: Goal, bound: float, most: float) -> Floats | None:
-    """The change (PARTS + 1,) of the accelerations that a linear program finds; None where there is none within the limits."""
+    """Change (PARTS + 1,) of the accelerations from the linear program; None if it is infeasible."""
     own, slope, after = seen.response(a, NUDGE * most)
     rows, right = [], []
     for kind, some in enumerate((np.ones_like(after), after)):
@@ -187,14 +187,14 @@ def _program(seen: _Seen, a: Floats, limits: Limits, goal: Goal, bound: float, m
 
 
 def _columns(count: int, kind: int) -> Floats:
-    """Columns (count, 4) that let the largest departure of a kind, up to its cap and above it, exceed each row's."""
+    """Columns (count, 4) of the slack variables for the largest displacement of a kind, up to its cap and above it."""
     columns = np.zeros((count, 4))
     columns[:, [kind, kind + 2]] = -1.0
     return columns
 
 
 def _as_drive(drive: Drive, way: Way, time: float, smoothing: float, a: Floats) -> Drive:
-    """The drive with the curve; its acceleration limit is the curve's largest, so that the way takes the time asked for."""
+    """The drive with this curve; its acceleration limit is the maximum of the curve, so that the trip takes the given time."""
     shares = a / np.abs(a).max()
     speeds = np.maximum(np.cumsum(shares[1:-1] - shares[1:-1].mean()), 0.0)  # the program keeps 0 but for its tolerance
     speeds[-1] = 0.0
