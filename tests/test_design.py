@@ -11,15 +11,15 @@ from comprope.rope.model_file import load
 from comprope_system import cli
 from comprope_system.modal.hanging_string import side_string
 from comprope_system.presets import model_path
-from comprope_system.reduced_model.string_dynamics import rope_of
-from comprope_system.reduced_model.swing import PLACES, Case
-from comprope_system.sheave_design.building_sway import BuildingSway, parked, worst
-from comprope_system.sheave_design.sensor_placement import choose
-from comprope_system.sheave_design.trip_envelopes import _at_heights, floors, pairs
-from comprope_system.sheave_design.workflow import _least
+from comprope_system.reduced_model.string_dynamics import string_parameters
+from comprope_system.reduced_model.swing import READ_POSITIONS, ReducedModel
+from comprope_system.sheave_design.building_sway import BuildingSway, parked_departures, worst_parked
+from comprope_system.sheave_design.sensor_placement import choose_sensors
+from comprope_system.sheave_design.trip_envelopes import _at_heights, floor_heights, trips_between
+from comprope_system.sheave_design.workflow import _least_mass
 
 TOWER = load(model_path("tower50"))
-CASE = Case(rope_of(TOWER), 50.0, 1.5)
+CASE = ReducedModel(string_parameters(TOWER), 50.0, 1.5)
 
 
 def finite_differences(sway: BuildingSway, length: float, count: int = 200) -> np.ndarray:
@@ -41,55 +41,55 @@ def finite_differences(sway: BuildingSway, length: float, count: int = 200) -> n
     times = np.arange(0.0, sway.duration, 0.1)
     found = solve_ivp(motion, (0.0, times[-1]), start, t_eval=times, rtol=1e-7, atol=1e-9).y[: count - 1]
     relative = found - np.outer(s[1:-1] / length, top * np.sin(rate * times))
-    return np.array([np.interp(PLACES, s[1:-1] / length, one) for one in np.abs(relative.T)]).max(axis=0)
+    return np.array([np.interp(READ_POSITIONS, s[1:-1] / length, one) for one in np.abs(relative.T)]).max(axis=0)
 
 
 @pytest.mark.parametrize("period", [2.0, 4.5])
 def test_the_closed_form_of_a_swaying_rope_is_its_equation_of_motion(period: float) -> None:
     sway = BuildingSway(0.02, period, 12.0)
     wanted = finite_differences(sway, 41.5)
-    assert parked(CASE, sway, 10.0)["counterweight"] == pytest.approx(wanted, abs=0.02 * wanted.max())
+    assert parked_departures(CASE, sway, 10.0)["counterweight"] == pytest.approx(wanted, abs=0.02 * wanted.max())
 
 
 def test_the_rope_swings_most_where_its_period_is_the_sway_s() -> None:
     cars = np.linspace(0.0, 25.0, 26)
     period = side_string(TOWER, 12.0).period()
-    swing, car = worst(CASE, BuildingSway(0.01, period, 60.0), cars)
+    swing, car = worst_parked(CASE, BuildingSway(0.01, period, 60.0), cars)
     assert car == 12.0
-    assert swing > 3.0 * max(float(one.max()) for one in parked(CASE, BuildingSway(0.01, period, 60.0), 0.0).values())
+    assert swing > 3.0 * max(float(one.max()) for one in parked_departures(CASE, BuildingSway(0.01, period, 60.0), 0.0).values())
 
 
 def test_trips_between_floors_leave_out_mirror_images() -> None:
-    assert pairs(floors(10.0, 3)) == [(0.0, 5.0), (0.0, 10.0), (5.0, 0.0)]
-    found = pairs(floors(50.0, 6))
+    assert trips_between(floor_heights(10.0, 3)) == [(0.0, 5.0), (0.0, 10.0), (5.0, 0.0)]
+    found = trips_between(floor_heights(50.0, 6))
     assert len(found) == 15  # of 30
     assert len({*found, *((50.0 - a, 50.0 - b) for a, b in found)}) == 30
 
 
 def test_sensors_are_where_every_occasion_is_seen() -> None:
-    seen = np.array([[1.0, 0.0, 0.9, 0.0], [0.0, 2.0, 0.0, 1.0], [0.0, 0.0, 0.4, 0.4]])
-    assert choose(seen, 2).places == (1, 2)
-    assert choose(seen, 2).share == pytest.approx(0.9)
-    assert choose(seen, 3).share == 1.0
+    departures = np.array([[1.0, 0.0, 0.9, 0.0], [0.0, 2.0, 0.0, 1.0], [0.0, 0.0, 0.4, 0.4]])
+    assert choose_sensors(departures, 2).places == (1, 2)
+    assert choose_sensors(departures, 2).share == pytest.approx(0.9)
+    assert choose_sensors(departures, 3).share == 1.0
 
 
 def test_the_least_mass_is_the_one_from_which_on_all_keep_the_limit() -> None:
     scanned = [{"mass": mass, "swing": 1e-3 * swing} for mass, swing in ((10.0, 20.0), (20.0, 4.0), (40.0, 8.0), (80.0, 2.0))]
-    assert _least(scanned, "swing", "swing_limit", 4.0) == pytest.approx(40.0 * 2.0**0.5)
-    assert _least(scanned, "swing", "swing_limit", 30.0) == 10.0
+    assert _least_mass(scanned, "swing", "swing_limit", 4.0) == pytest.approx(40.0 * 2.0**0.5)
+    assert _least_mass(scanned, "swing", "swing_limit", 30.0) == 10.0
     with pytest.raises(
         InputError, match=r"swing_limit = 1 mm: 2.00 mm or more is accepted; that is the swing even with a sheave of 80 kg"
     ):
-        _least(scanned, "swing", "swing_limit", 1.0)
+        _least_mass(scanned, "swing", "swing_limit", 1.0)
 
 
 def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("comprope_system.sheave_design.workflow.MASSES", np.array([0.4, 1.0, 2.5]))
+    monkeypatch.setattr("comprope_system.sheave_design.workflow.MASS_RATIOS", np.array([0.4, 1.0, 2.5]))
     monkeypatch.setattr("comprope_system.sheave_design.workflow.TOLERANCE", 0.3)
     changes = [*("--set", "rope.element_length=0.1"), *("--set", "solver.step=0.01"), *("--set", "shaft.height=12")]
-    asked = ["--limit", 4, "--floors", 3, "--sway-period", 2, "--sway-amplitude", 5, "--jobs", 1, "--out", tmp_path]
+    target = ["--limit", 4, "--floors", 3, "--sway-period", 2, "--sway-amplitude", 5, "--jobs", 1, "--out", tmp_path]
     with pytest.raises(SystemExit) as done:
-        cli.main([str(one) for one in ("design", "tower50", *changes, *asked)])
+        cli.main([str(one) for one in ("design", "tower50", *changes, *target)])
     assert (done.value.code or 0) == 0
     assert capsys.readouterr().out.startswith("smallest sheave mass for 4 mm: ")
     result = json.loads((tmp_path / "result.json").read_text())
@@ -103,6 +103,6 @@ def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
 
 def test_departures_at_fixed_heights_are_read_between_places_and_nought_beyond_the_rope() -> None:
     length = np.array([10.0, 20.0])
-    departure = np.array([PLACES, 2.0 * PLACES])
+    departure = np.array([READ_POSITIONS, 2.0 * READ_POSITIONS])
     found = _at_heights(departure, length, np.array([5.0, 9.0, 15.0]))
     assert found == pytest.approx(np.array([[0.5, 0.9, 0.0], [0.5, 0.9, 1.5]]))

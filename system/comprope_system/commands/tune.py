@@ -88,12 +88,12 @@ def tune(model: MODEL, wishes: Wishes, work: Work) -> None:
 
 def read_times(text: str) -> list[float]:
     """Travel times such as `1.05,1.2`, rising; raises `InputError` if one is none."""
-    from ..tuning.workflow import LONGEST, SHORTEST
+    from ..tuning.workflow import MAX_TIME_FACTOR, SHORTEST
 
     try:
         found = sorted(float(one) for one in text.split(","))
     except ValueError:
         found = [math.nan]
-    if not all(SHORTEST <= one <= LONGEST for one in found):
-        raise InputError(f"--times {text}: numbers from {SHORTEST:g} to {LONGEST:g}, with commas between, are accepted")
+    if not all(SHORTEST <= one <= MAX_TIME_FACTOR for one in found):
+        raise InputError(f"--times {text}: numbers from {SHORTEST:g} to {MAX_TIME_FACTOR:g}, with commas between, are accepted")
     return found

@@ -5,8 +5,8 @@ one; the first and the last belong to the ends. The mass matrix is the mean of c
 elements and longer have the correct speed.
 """
 
-from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,7 @@ Floats = NDArray[np.float64]
 ELEMENTS = 96  # the car's bounce on its hoist ropes makes waves a seventeenth as long as a side of 200 m
 
 
-@dataclass(frozen=True)
-class Matrices:
+class Matrices(NamedTuple):
     """The integrals over xi of f_i f_j (`mass`), (1 - xi) f_i f_j' (`G`), (1 - xi)^2 f_i' f_j' (`S`), f_i' f_j' (`K`) and
     xi f_i' f_j' (`H`).
     """
@@ -50,12 +49,12 @@ def _band(parts: Floats) -> Floats:
     return np.array([parts[:-1, 1, 0], parts[:-1, 1, 1] + parts[1:, 0, 0], parts[1:, 0, 1]])
 
 
-def whole(band: Floats) -> Floats:
+def dense(band: Floats) -> Floats:
     """The full matrix (n - 1, n - 1) of the inner nodes."""
     return np.diag(band[1]) + np.diag(band[0, 1:], -1) + np.diag(band[2, :-1], 1)
 
 
-def times(band: Floats, y: Floats) -> Floats:
+def band_times(band: Floats, y: Floats) -> Floats:
     """Product of a band with values at all nodes (n + 1,)."""
     return np.asarray(band[0] * y[:-2] + band[1] * y[1:-1] + band[2] * y[2:])
 
@@ -66,6 +65,6 @@ def nodes() -> Floats:
     return np.linspace(0.0, 1.0, ELEMENTS + 1)
 
 
-def at_places(xi: Floats) -> Floats:
+def interpolation_matrix(xi: Floats) -> Floats:
     """Interpolation matrix (m, n + 1) from nodes to coordinates xi (m,)."""
     return np.maximum(0.0, 1.0 - ELEMENTS * np.abs(np.asarray(xi)[:, None] - nodes()))

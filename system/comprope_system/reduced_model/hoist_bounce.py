@@ -20,15 +20,15 @@ from comprope.drive.hoist_dynamics import lumps
 from comprope.drive.parameters import Drive
 from comprope.drive.stability_margins import open_loop
 
-from .sampled_motion import Moves
+from .sampled_motion import SampledMotion
 
 Floats = NDArray[np.float64]
 
-PLACES = 13  # car positions at which the loop is looked at
+CAR_POSITIONS = 13  # car positions at which the loop is looked at
 
 
 @dataclass(frozen=True)
-class Hoist:
+class HoistBounce:
     """Frequencies [rad/s] and damping ratios of car and counterweight (2, PLACES) with the car at `heights` (PLACES,) [m]."""
 
     heights: Floats
@@ -39,26 +39,26 @@ class Hoist:
         """The longer of both periods [s] for a car height [m]."""
         return float(2.0 * np.pi / min(np.interp(car, self.heights, one) for one in self.frequency))
 
-    def ends(self, moved: Moves) -> tuple[Floats, Floats]:
+    def ends(self, motion: SampledMotion) -> tuple[Floats, Floats]:
         """Vibration of car and counterweight about the reference: displacement, speed, acceleration (3, n), up positive."""
         added = []
         for k, sign in enumerate((1.0, -1.0)):
-            w = np.interp(moved.position, self.heights, self.frequency[k])
-            z = np.interp(moved.position, self.heights, self.damping[k])
-            added.append(_bounced(moved.dt, sign * moved.acceleration, w, z))
+            w = np.interp(motion.position, self.heights, self.frequency[k])
+            z = np.interp(motion.position, self.heights, self.damping[k])
+            added.append(_integrate_bounce(motion.dt, sign * motion.acceleration, w, z))
         return added[0], added[1]
 
 
-def hoist_of(drive: Drive) -> Hoist:
+def hoist_bounce(drive: Drive) -> HoistBounce:
     """Oscillators of car and counterweight for a drive; cached, since independent of the trip."""
     return _hoist(drive.standing)
 
 
 @lru_cache(maxsize=8)
-def _hoist(drive: Drive) -> Hoist:
-    heights = np.linspace(0.0, drive.shaft.height, PLACES)
+def _hoist(drive: Drive) -> HoistBounce:
+    heights = np.linspace(0.0, drive.shaft.height, CAR_POSITIONS)
     found = np.array([_bounces(drive, float(height)) for height in heights])
-    return Hoist(heights, found[:, 0].T, found[:, 1].T)
+    return HoistBounce(heights, found[:, 0].T, found[:, 1].T)
 
 
 def _bounces(drive: Drive, height: float) -> Floats:
@@ -76,7 +76,7 @@ def _bounces(drive: Drive, height: float) -> Floats:
 
 
 @numba.njit(cache=True)
-def _bounced(dt, a, w, z):  # type: ignore[no-untyped-def]
+def _integrate_bounce(dt, a, w, z):  # type: ignore[no-untyped-def]
     """Response d, d' and d'' (3, n) by the implicit midpoint rule."""
     found, h = np.zeros((3, len(a))), 0.5 * dt
     d = u = 0.0

@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Moves:
+class SampledMotion:
     """Times `dt` [s] apart from zero, and the car's position [m], speed [m/s] and acceleration [m/s2], each (n,)."""
 
     dt: float
@@ -29,27 +29,27 @@ class Moves:
         return np.asarray(self.dt * np.arange(len(self.position)), float)
 
 
-def moves(course: ReferenceTrajectory, until: float, dt: float) -> Moves:
+def sample_motion(trajectory: ReferenceTrajectory, until: float, dt: float) -> SampledMotion:
     """The trajectory from time zero to `until` [s] or slightly longer."""
     time = np.asarray(dt * np.arange(int(np.ceil(until / dt)) + 1), float)
     total = np.zeros((3, len(time)))
-    for delay, share in course.impulses:
-        total += share * _smoothed(course, time - delay)
-    over = time >= course.end_time
-    total[1:, over] = 0.0
-    way = np.where(over, course.destination - course.origin, total[0])
-    return Moves(dt, np.asarray(course.origin + way, float), total[1], total[2])
+    for delay, share in trajectory.impulses:
+        total += share * _smoothed(trajectory, time - delay)
+    after_end = time >= trajectory.end_time
+    total[1:, after_end] = 0.0
+    travel = np.where(after_end, trajectory.destination - trajectory.origin, total[0])
+    return SampledMotion(dt, np.asarray(trajectory.origin + travel, float), total[1], total[2])
 
 
-def _smoothed(course: ReferenceTrajectory, time: Floats) -> Floats:
+def _smoothed(trajectory: ReferenceTrajectory, time: Floats) -> Floats:
     """Distance, speed and acceleration (3, n) of the trip after the moving average."""
-    values = _curve if isinstance(course.trip, FreeCurve) else _trip
-    gone, way, speed, acceleration = values(course.trip, time)  # type: ignore[arg-type]
-    S = course.smoothing
+    values = _curve if isinstance(trajectory.trip, FreeCurve) else _trip
+    travel_integral, travel, speed, acceleration = values(trajectory.trip, time)  # type: ignore[arg-type]
+    S = trajectory.smoothing
     if S == 0.0:
-        return np.array([way, speed, acceleration])
-    before, way0, speed0, _ = values(course.trip, time - S)  # type: ignore[arg-type]
-    return np.array([gone - before, way - way0, speed - speed0]) / S
+        return np.array([travel, speed, acceleration])
+    before, travel0, speed0, _ = values(trajectory.trip, time - S)  # type: ignore[arg-type]
+    return np.array([travel_integral - before, travel - travel0, speed - speed0]) / S
 
 
 def _trip(trip: SCurve, time: Floats) -> Floats:
@@ -58,11 +58,11 @@ def _trip(trip: SCurve, time: Floats) -> Floats:
     elapsed = np.clip(time - trip.start_time, 0.0, trip.duration)
     left = trip.duration - elapsed
     first, s = elapsed <= left, np.minimum(elapsed, left)
-    gone, way, speed, acceleration = (_begun(trip, s, order) for order in (4, 3, 2, 1))
-    over = np.maximum(time - trip.end_time, 0.0)
+    travel_integral, travel, speed, acceleration = (_begun(trip, s, order) for order in (4, 3, 2, 1))
+    after_end = np.maximum(time - trip.end_time, 0.0)
     return np.array([
-        np.where(first, gone, distance * (elapsed - half) + gone) + distance * over,
-        np.where(first, way, distance - way), speed, np.where(first, acceleration, -acceleration),
+        np.where(first, travel_integral, distance * (elapsed - half) + travel_integral) + distance * after_end,
+        np.where(first, travel, distance - travel), speed, np.where(first, acceleration, -acceleration),
     ])  # fmt: skip
 
 
@@ -78,10 +78,10 @@ def _curve(trip: FreeCurve, time: Floats) -> Floats:
     """The same for a free-form trip."""
     dt, elapsed = trip.duration / PARTS, np.clip(time - trip.start_time, 0.0, trip.duration)
     k = np.minimum((elapsed / dt).astype(int), PARTS - 1)
-    t, (a, v, x, gone) = elapsed - k * dt, (np.array(one) for one in trip.knots)
-    j, over = (a[k + 1] - a[k]) / dt, np.maximum(time - trip.end_time, 0.0) * (trip.destination - trip.origin)
-    a, v, x, gone = a[k], v[k], x[k], gone[k]
+    t, (a, v, x, travel_integral) = elapsed - k * dt, (np.array(one) for one in trip.knots)
+    j, after_end = (a[k + 1] - a[k]) / dt, np.maximum(time - trip.end_time, 0.0) * (trip.destination - trip.origin)
+    a, v, x, travel_integral = a[k], v[k], x[k], travel_integral[k]
     return np.array([
-        over + gone + t * (x + t * (v / 2.0 + t * (a / 6.0 + t * j / 24.0))),
+        after_end + travel_integral + t * (x + t * (v / 2.0 + t * (a / 6.0 + t * j / 24.0))),
         x + t * (v + t * (a / 2.0 + t * j / 6.0)), v + t * (a + t * j / 2.0), a + t * j,
     ])  # fmt: skip

@@ -11,9 +11,9 @@ import control
 import numpy as np
 from numpy.typing import NDArray
 
-from .finite_elements import at_places, matrices, nodes, times
-from .string_dynamics import still_modes
-from .swing import SIDES, Case
+from .finite_elements import band_times, interpolation_matrix, matrices, nodes
+from .string_dynamics import standstill_modes
+from .swing import SIDES, ReducedModel
 
 Floats = NDArray[np.float64]
 
@@ -22,9 +22,9 @@ OUTPUTS = (0.25, 0.5, 0.75)  # of a side's length, from the axle
 FILTER = 20.0  # 1/s: the offset follows speed and acceleration through this lag, so that it has a rate
 
 
-def rope_model(case: Case, car: float) -> control.StateSpace:
+def rope_state_space(reduced: ReducedModel, car: float) -> control.StateSpace:
     """Both sides with the car at `car` [m]: inputs car_speed, car_acceleration; outputs displacements [m]; see the module."""
-    parts = [_side(case, side, car) for side in SIDES]
+    parts = [_side(reduced, side, car) for side in SIDES]
     joined = control.append(*parts)
     both = control.StateSpace(joined.A, joined.B @ np.vstack([np.eye(2), np.eye(2)]), joined.C, np.zeros((len(joined.C), 2)))
     outputs = [f"{side}_{100 * share:.0f}_percent" for side in SIDES for share in OUTPUTS]
@@ -38,16 +38,16 @@ def _states() -> list[str]:
     return [f"{what}{k}" for what in ("amplitude", "rate") for k in range(1, MODES + 1)] + ["offset", "offset_rate"]
 
 
-def _side(case: Case, side: str, car: float) -> control.StateSpace:
+def _side(reduced: ReducedModel, side: str, car: float) -> control.StateSpace:
     """One side about rest: q'' + c q' + W^2 q = -(m b'' + c m b' + k b), b through two lags of speed and acceleration."""
-    rope, M, sign, lift = case.rope, matrices(), SIDES[side], 1.0 - nodes()
-    length = float(case.length(side, np.array([car]))[0])
-    squares, V, stiffness = still_modes(rope, length)
+    rope, M, sign, end_share = reduced.rope, matrices(), SIDES[side], 1.0 - nodes()
+    length = float(reduced.length(side, np.array([car]))[0])
+    squares, V, stiffness = standstill_modes(rope, length)
     squares, V = squares[:MODES], V[:, :MODES]
-    m, k = (V.T @ times(one, lift) for one in (M.mass, stiffness))
+    m, k = (V.T @ band_times(one, end_share) for one in (M.mass, stiffness))
     offset = rope.offset
-    by_speed = sign * rope.bending_stiffness / (2.0 * rope.radius * rope.weight) * rope.held[1]
-    by_acceleration = -sign * offset * rope.turning / rope.weight
+    by_speed = sign * rope.bending_stiffness / (2.0 * rope.radius * rope.weight) * rope.offset_coefficients[1]
+    by_acceleration = -sign * offset * rope.rotating_mass / rope.weight
     n, F = MODES, FILTER
     A, B = np.zeros((2 * n + 2, 2 * n + 2)), np.zeros((2 * n + 2, 2))
     A[:n, n : 2 * n] = np.eye(n)
@@ -59,7 +59,9 @@ def _side(case: Case, side: str, car: float) -> control.StateSpace:
     A[n : 2 * n, 2 * n + 1] -= rope.damping * m
     B[n : 2 * n] = -np.outer(m, B[2 * n + 1])
     share = np.array(OUTPUTS)
-    C = np.hstack([at_places(share)[:, 1:-1] @ V, np.zeros((len(share), n)), (1.0 - share)[:, None], np.zeros((len(share), 1))])
+    C = np.hstack(
+        [interpolation_matrix(share)[:, 1:-1] @ V, np.zeros((len(share), n)), (1.0 - share)[:, None], np.zeros((len(share), 1))]
+    )
     return control.ss(A, B, C, np.zeros((len(share), 2)))
 
 

@@ -33,37 +33,37 @@ from scipy.linalg import eigh
 from comprope.errors import InputError
 from comprope.rope.parameters import Base
 
-from .finite_elements import ELEMENTS, matrices, nodes, whole
+from .finite_elements import ELEMENTS, dense, matrices, nodes
 
 Floats = NDArray[np.float64]
 
-STARTS = 0.02  # m/s: below it internal friction of the rope has not reversed yet
+FRICTION_TRANSITION_SPEED = 0.02  # m/s: below it internal friction of the rope has not reversed yet
 
 
 @dataclass(frozen=True)
-class Rope:
+class StringParameters:
     """Parameters of one side of the rope: mass per length [kg/m], weight on the groove of a side [N], force per
     acceleration for rotation and for translation of the sheave [kg], bending stiffness [N m2], radius [m], damping / mass
-    [1/s], gravity [m/s2]; `held`: g0 ... g3.
+    [1/s], gravity [m/s2]; `offset_coefficients`: g0 ... g3.
     """
 
     mass_per_length: float
     weight: float
-    turning: float
-    lifting: float
+    rotating_mass: float
+    vertical_mass: float
     bending_stiffness: float
     radius: float
     damping: float
     gravity: float
-    held: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    offset_coefficients: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
-    def offset_at(self, press: Floats, speed: Floats) -> Floats:
-        """Outward offset of the rope at the axle's height [m] for a contact force `press` [N] and upward `speed` [m/s]."""
-        g0, g1, g2, g3 = self.held
+    def offset_at(self, groove_force: Floats, speed: Floats) -> Floats:
+        """Outward offset of the rope at the axle's height [m] for a contact force `groove_force` [N] and upward `speed` [m/s]."""
+        g0, g1, g2, g3 = self.offset_coefficients
         return (
             self.bending_stiffness
-            / (2.0 * self.radius * press)
-            * (g0 + g1 * speed + g2 * speed**2 + g3 * np.tanh(speed / STARTS))
+            / (2.0 * self.radius * groove_force)
+            * (g0 + g1 * speed + g2 * speed**2 + g3 * np.tanh(speed / FRICTION_TRANSITION_SPEED))
         )
 
     @property
@@ -77,7 +77,7 @@ class Rope:
         return float(self.offset_at(np.array(self.weight), np.array(0.0)))
 
 
-def rope_of(model: Base) -> Rope:
+def string_parameters(model: Base) -> StringParameters:
     """A side of the model's rope; raises `InputError` where the sheave is too light for the rope to wrap it."""
     rope, sheave, g = model.rope, model.sheave, model.shaft.gravity
     wrapped = rope.mass_per_length * pi * sheave.radius
@@ -87,58 +87,64 @@ def rope_of(model: Base) -> Rope:
             f"sheave.mass = {sheave.mass:g} kg: more than {2.0 * least / g - wrapped:.4g} kg is accepted for tuning; a lighter "
             "sheave hangs in a free loop of rope, which the search does not know"
         )
-    turning, lifting = 0.5 * (sheave.inertia / sheave.radius**2 + wrapped), 0.5 * (sheave.mass + wrapped)
+    rotating_mass, vertical_mass = 0.5 * (sheave.inertia / sheave.radius**2 + wrapped), 0.5 * (sheave.mass + wrapped)
     damping = rope.external_damping / rope.mass_per_length
-    return Rope(rope.mass_per_length, weight, turning, lifting, rope.bending_stiffness, sheave.radius, damping, g)
+    return StringParameters(
+        rope.mass_per_length, weight, rotating_mass, vertical_mass, rope.bending_stiffness, sheave.radius, damping, g
+    )
 
 
-def still_modes(rope: Rope, length: float) -> tuple[Floats, Floats, Floats]:
+def standstill_modes(rope: StringParameters, length: float) -> tuple[Floats, Floats, Floats]:
     """Modes at standstill: squares of the angular frequencies (k,), shapes (n - 1, k) at the inner nodes, stiffness over rho L.
 
     The modes have unit mass and are sorted by increasing frequency.
     """
     M = matrices()
     stiffness = rope.weight / rope.mass_per_length / length**2 * M.K + rope.gravity / length * M.H
-    squares, modes = eigh(whole(stiffness), whole(M.mass))
+    squares, modes = eigh(dense(stiffness), dense(M.mass))
     return squares, modes, stiffness
 
 
-def at_rest(rope: Rope, length: Floats, xi: Floats) -> Floats:
+def rest_shape(rope: StringParameters, length: Floats, xi: Floats) -> Floats:
     """Static outward shape (m, n) [m] at coordinates xi (n,) for lengths (m,) [m]: (T y')' = 0."""
     slack = rope.mass_per_length * rope.gravity * np.asarray(length)[:, None] / rope.weight
     return np.asarray(rope.offset * (1.0 - np.log1p(slack * xi) / np.log1p(slack)))
 
 
-def sway(rope: Rope, dt: float, length: Floats, speed: Floats, acceleration: Floats, press: Floats) -> Floats:
+def simulate_string(
+    rope: StringParameters, dt: float, length: Floats, speed: Floats, acceleration: Floats, groove_force: Floats
+) -> Floats:
     """Outward displacement at the nodes (m, n + 1) [m] at time steps `dt` [s], starting from rest.
 
-    `length` [m], `speed` and `acceleration` of the end, up positive [m/s, m/s2], `press` [N] on the groove, each (m,).
+    `length` [m], `speed` and `acceleration` of the end, up positive [m/s, m/s2], `groove_force` [N] on the groove, each (m,).
     """
-    M, b = matrices(), rope.offset_at(press, speed)
+    M, b = matrices(), rope.offset_at(groove_force, speed)
     found = np.zeros((len(length), ELEMENTS + 1))
-    found[0] = at_rest(rope, length[:1], nodes())[0] * b[0] / rope.offset
+    found[0] = rest_shape(rope, length[:1], nodes())[0] * b[0] / rope.offset
     found[:, 0] = b
-    _march(dt, length, speed, acceleration, press / rope.mass_per_length, rope.gravity, rope.damping,
-           M.mass, M.G, M.S, M.K, M.H, found)  # fmt: skip
+    motion = np.array([length, speed, acceleration, groove_force / rope.mass_per_length])
+    _integrate(dt, motion, rope.gravity, rope.damping, M, found)
     return found
 
 
 @numba.njit(cache=True)
-def _march(dt, L, v, a, press, g, c, mass, G, S, K, H, found):  # type: ignore[no-untyped-def]
-    """The rows of `found` after the first by the implicit midpoint rule on y and the momenta p = mass y', so that b need not be
-    smooth; a band is solved by elimination downwards and back.
+def _integrate(dt, motion, g, c, M, found):  # type: ignore[no-untyped-def]
+    """Fill the rows of `found` after the first by the implicit midpoint rule on y and the momenta p = mass y', so that b need not
+    be smooth; the band is solved by forward elimination and back substitution. `motion` (4, m): L, v, v', N / rho.
     """
+    L, v, a, N = motion
+    mass, G, S, K, H = M
     h, k = 0.5 * dt, mass.shape[1]
     p, u, slope, stiff = np.zeros(k), np.zeros(k + 2), np.zeros(k + 1), np.zeros(3)
     for i in range(len(L) - 1):
         y, length, speed, up = found[i], 0.5 * (L[i] + L[i + 1]), 0.5 * (v[i] + v[i + 1]), 0.5 * (a[i] + a[i + 1])
-        n, rate = 0.5 * (press[i] + press[i + 1]) / length**2, speed / length
-        way, gravity, level = up / length + c * rate, (g + up) / length, n + rate**2
+        n, rate = 0.5 * (N[i] + N[i + 1]) / length**2, speed / length
+        drift, gravity, level = up / length + c * rate, (g + up) / length, n + rate**2
         u[0] = (found[i + 1, 0] - y[0]) / dt
         for j in range(k):
             push = p[j]
             for m in range(3):
-                stiff[m] = level * K[m, j] - rate**2 * S[m, j] + gravity * H[m, j] + way * G[m, j]
+                stiff[m] = level * K[m, j] - rate**2 * S[m, j] + gravity * H[m, j] + drift * G[m, j]
                 push -= h * stiff[m] * y[j + m]
                 stiff[m] = (1.0 + h * c) * mass[m, j] + 2.0 * h * rate * G[m, j] + h * h * stiff[m]
             pivot = stiff[1] - stiff[0] * slope[j]

@@ -1,4 +1,4 @@
-"""How far a swaying building swings the rope of a parked car: the small rope at standstill, in closed form.
+"""Response of the rope of a parked car to building sway: the reduced model at standstill, in closed form.
 
 The ends sway with the building, in proportion to the height above the axle; what counts is the rope's departure from the
 building. Mode k, of angular frequency w, answers the sway s = A sin(W t), begun at rest, by
@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..reduced_model.finite_elements import at_places, matrices, nodes, times
-from ..reduced_model.string_dynamics import still_modes
-from ..reduced_model.swing import PLACES, SIDES, Case
+from ..reduced_model.finite_elements import band_times, interpolation_matrix, matrices, nodes
+from ..reduced_model.string_dynamics import standstill_modes
+from ..reduced_model.swing import READ_POSITIONS, SIDES, ReducedModel
 
 Floats = NDArray[np.float64]
 
@@ -34,25 +34,25 @@ class BuildingSway:
     duration: float = 60.0
 
 
-def parked(case: Case, sway: BuildingSway, car: float) -> dict[str, Floats]:
-    """The farthest departure from the building (places,) [m] at PLACES of each side, car parked at `car` [m]."""
-    return {side: _side(case, sway, float(case.length(side, np.array([car]))[0])) for side in SIDES}
+def parked_departures(reduced: ReducedModel, sway: BuildingSway, car: float) -> dict[str, Floats]:
+    """The farthest departure from the building (places,) [m] at READ_POSITIONS of each side, car parked at `car` [m]."""
+    return {side: _side(reduced, sway, float(reduced.length(side, np.array([car]))[0])) for side in SIDES}
 
 
-def worst(case: Case, sway: BuildingSway, cars: Floats) -> tuple[float, float]:
+def worst_parked(reduced: ReducedModel, sway: BuildingSway, cars: Floats) -> tuple[float, float]:
     """The farthest departure [m] over parked cars, and the height of that car [m]."""
-    found = [max(float(one.max()) for one in parked(case, sway, float(car)).values()) for car in cars]
+    found = [max(float(one.max()) for one in parked_departures(reduced, sway, float(car)).values()) for car in cars]
     return max(found), float(cars[int(np.argmax(found))])
 
 
-def _side(case: Case, sway: BuildingSway, length: float) -> Floats:
+def _side(reduced: ReducedModel, sway: BuildingSway, length: float) -> Floats:
     W = 2.0 * np.pi / sway.period
-    squares, modes, stiffness = still_modes(case.rope, length)
+    squares, modes, stiffness = standstill_modes(reduced.rope, length)
     squares, modes = squares[:MODES], modes[:, :MODES]
-    amplitude = sway.amplitude * length / (case.height + case.pit)
-    force = amplitude * modes.T @ (W**2 * times(matrices().mass, nodes()) - times(stiffness, nodes()))
+    amplitude = sway.amplitude * length / (reduced.height + reduced.pit)
+    force = amplitude * modes.T @ (W**2 * band_times(matrices().mass, nodes()) - band_times(stiffness, nodes()))
     w = np.sqrt(squares)
     w = np.where(np.abs(w - W) < NEAR * W, (1.0 + NEAR) * W, w)
     t = np.arange(0.0, sway.duration, STEP)[:, None]
     q = force / (w**2 - W**2) * (np.sin(W * t) - W / w * np.sin(w * t))
-    return np.asarray(np.abs(q @ modes.T @ at_places(PLACES)[:, 1:-1].T).max(axis=0))
+    return np.asarray(np.abs(q @ modes.T @ interpolation_matrix(READ_POSITIONS)[:, 1:-1].T).max(axis=0))

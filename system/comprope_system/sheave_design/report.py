@@ -11,7 +11,7 @@ from comprope.rope.effects import RopeModel
 from ..modal.hanging_string import side_string
 from ..report.page import Block, Picture, Section, Table
 from ..report.plot_style import COLOURS, GREY, label, legend, panels, plain_log
-from .trip_envelopes import course, floors
+from .trip_envelopes import floor_heights, s_curve_trajectory
 
 TITLE = "Compensation rope: sheave and sensors"
 LEAD = (
@@ -71,7 +71,8 @@ def _mass(result: Result) -> list[Block]:
     ]  # fmt: skip
     head = ("mass [kg]", "worst trip [mm]", "which", "worst after a trip [mm]", "worst sway [mm]", "car parked at [m]")
     full = Table(
-        ("mass [kg]", "worst trip, full model [mm]"), [(f"{mass:.1f}", f"{1e3 * swing:.2f}") for mass, swing in result["full"]],
+        ("mass [kg]", "worst trip, full model [mm]"),
+        [(f"{mass:.1f}", f"{1e3 * swing:.2f}") for mass, swing in result["full"]],
         "The worst trip simulated with the full model; the last mass is the result",
     )
     return [text, Picture("design_mass", _draw_mass(result)), Table(head, rows), full]
@@ -105,8 +106,8 @@ def _resonance(result: Result, model: RopeModel, chosen: RopeModel, profile: Pro
         "of the building sway ± 5 %."
     )
     pictures = [
-        Picture(f"resonance_{name}", _draw_resonance(result, one, profile), f"Sheave of {one.sheave.mass:.1f} kg ({told})")
-        for name, one, told in (("own", model, "as in the model"), ("least", chosen, "the smallest"))
+        Picture(f"resonance_{name}", _draw_resonance(result, one, profile), f"Sheave of {one.sheave.mass:.1f} kg ({description})")
+        for name, one, description in (("own", model, "as in the model"), ("least", chosen, "the smallest"))
     ]
     return [text, *pictures]
 
@@ -120,12 +121,14 @@ def _draw_resonance(result: Result, model: RopeModel, profile: Profile) -> Any:
         for waves, style in zip(MODES, ("-", "--", ":"), strict=True):
             name = f"{side}'s side, {waves} half wave{'s' if waves > 1 else ''}"
             axes.plot(cars, [one.period(waves) for one in strings], style, color=colour, linewidth=1.3, label=name)
-    fine, ends = np.linspace(0.0, height, 401), floors(height, result["floors"])
+    fine, ends = np.linspace(0.0, height, 401), floor_heights(height, result["floors"])
     for start, mark, name in ((0.0, "^", "trips up from the bottom"), (height, "v", "trips down from the top")):
-        axes.plot(fine, [course(profile, (start, float(end))).duration for end in fine], color=COLOURS[2], linewidth=0.8)
+        axes.plot(
+            fine, [s_curve_trajectory(profile, (start, float(end))).duration for end in fine], color=COLOURS[2], linewidth=0.8
+        )
         axes.plot(
             ends,
-            [course(profile, (start, float(end))).duration for end in ends],
+            [s_curve_trajectory(profile, (start, float(end))).duration for end in ends],
             mark,
             color=COLOURS[2],
             markersize=4.5,
@@ -154,8 +157,8 @@ def _sensors(result: Result) -> list[Block]:
 def _draw_sensors(found: Mapping[str, Any]) -> Any:
     figure, axes = panels(2, height=3.6)
     count = len(found["heights"])
-    for one, side, seen in zip(axes, ("car", "counterweight"), (found["seen"][:count], found["seen"][count:]), strict=True):
-        one.plot([1e3 * value for value in seen], found["heights"], color=COLOURS[0])
+    for one, side, largest in zip(axes, ("car", "counterweight"), (found["seen"][:count], found["seen"][count:]), strict=True):
+        one.plot([1e3 * value for value in largest], found["heights"], color=COLOURS[0])
         for place in found["places"]:
             if place["side"] == side:
                 one.axhline(place["height"], color=COLOURS[1], linewidth=1.2)

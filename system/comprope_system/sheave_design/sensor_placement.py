@@ -1,4 +1,4 @@
-"""Where to look at the rope: the heights at which a few sensors see most of every swing."""
+"""Sensor placement: the heights at which a few sensors measure most of every swing."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,19 +10,19 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Choice:
-    """Chosen places as indices, and the share of the largest swing that the best of them sees, on the worst occasion."""
+class SensorChoice:
+    """Chosen places as indices, and the share of the largest swing that the best of them measures, on the worst occasion."""
 
     places: tuple[int, ...]
     share: float
 
 
-def choose(seen: Floats, count: int) -> Choice:
-    """The `count` places of `seen` (occasions, places) that see most of every occasion: one after the other, then exchanged.
+def choose_sensors(departures: Floats, count: int) -> SensorChoice:
+    """The `count` places at which most of the motion of every occasion is measured: greedy choice, then exchange.
 
-    `seen` are the largest departures at each place; the share is over the largest anywhere on that occasion.
+    `departures` (occasions, places) are the largest at each place; the share is over the largest anywhere on that occasion.
     """
-    shares = seen / seen.max(axis=1, keepdims=True)
+    shares = departures / departures.max(axis=1, keepdims=True)
     chosen: list[int] = []
     for _ in range(count):
         chosen.append(_best(shares, chosen))
@@ -30,7 +30,7 @@ def choose(seen: Floats, count: int) -> Choice:
         for k in range(count):
             others = chosen[:k] + chosen[k + 1 :]
             chosen = [*others[:k], _best(shares, others), *others[k:]]
-    return Choice(tuple(sorted(chosen)), float(shares[:, chosen].max(axis=1).min()))
+    return SensorChoice(tuple(sorted(chosen)), float(shares[:, chosen].max(axis=1).min()))
 
 
 def _best(shares: Floats, chosen: Sequence[int]) -> int:

@@ -1,4 +1,4 @@
-"""The swing of all trips between floors on the small rope, for one sheave; and of the worst one on the full model."""
+"""The swing of all trips between floors on the reduced model, for one sheave; and of the worst one on the full model."""
 
 from collections.abc import Mapping
 from itertools import permutations
@@ -14,21 +14,29 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import validated, with_changes
 
 from ..presets.paper_installations import with_sheave
-from ..reduced_model.sampled_motion import moves
-from ..reduced_model.swing import DT, PLACES, Case, displacements, full_swing, small_swing, tail
-from ..tuning.search.profile_families import START
-from ..tuning.task import case_of
-from .building_sway import BuildingSway, worst
+from ..reduced_model.sampled_motion import sample_motion
+from ..reduced_model.swing import (
+    READ_POSITIONS,
+    SEARCH_STEP,
+    ReducedModel,
+    departures_from_rest,
+    full_model_swing,
+    observation_time,
+    reduced_swing,
+)
+from ..tuning.search.profile_families import REST_BEFORE
+from ..tuning.task import reduced_model_of
+from .building_sway import BuildingSway, worst_parked
 
 Floats = NDArray[np.float64]
 
 
-def floors(height: float, count: int) -> Floats:
+def floor_heights(height: float, count: int) -> Floats:
     """Heights of `count` floors [m], evenly from the bottom to the top landing."""
     return np.linspace(0.0, height, count)
 
 
-def pairs(heights: Floats) -> list[tuple[float, float]]:
+def trips_between(heights: Floats) -> list[tuple[float, float]]:
     """All trips between floors [m] but the mirror images, which swing the other side alike."""
     top = heights[-1]
     found = set()
@@ -38,60 +46,65 @@ def pairs(heights: Floats) -> list[tuple[float, float]]:
     return sorted(found)
 
 
-def course(profile: Profile, trip: tuple[float, float]) -> ReferenceTrajectory:
+def s_curve_trajectory(profile: Profile, trip: tuple[float, float]) -> ReferenceTrajectory:
     """The jerk-limited course of a trip."""
-    return ReferenceTrajectory(plan_s_curve(profile, *trip, START))
+    return ReferenceTrajectory(plan_s_curve(profile, *trip, REST_BEFORE))
 
 
-def rope_of_mass(model: RopeModel, mass: float) -> RopeModel:
+def model_with_sheave(model: RopeModel, mass: float) -> RopeModel:
     """The model with a sheave of another mass [kg], the same disc."""
     return with_changes(model, with_sheave(model, mass))
 
 
-def of_mass(case: Mapping[str, Any]) -> dict[str, Any]:
+def mass_case(case: Mapping[str, Any]) -> dict[str, Any]:
     """The worst trip and the worst parked floor of a sheave's mass: a case of a sweep; swings in m, heights in m."""
-    model = rope_of_mass(validated(case["model"], "case"), case["mass"])
-    small, profile = case_of(model), Profile.model_validate(case["profile"])
-    heights = floors(model.shaft.height, case["floors"])
-    tails = {float(height): tail(model, float(height)) for height in heights}
+    model = model_with_sheave(validated(case["model"], "case"), case["mass"])
+    reduced, profile = reduced_model_of(model), Profile.model_validate(case["profile"])
+    heights = floor_heights(model.shaft.height, case["floors"])
+    tails = {float(height): observation_time(model, float(height)) for height in heights}
     swings = []
-    for trip in pairs(heights):
-        swing = small_swing(small, course(profile, trip), tails[min(tails, key=lambda one: abs(one - trip[1]))])
+    for trip in trips_between(heights):
+        swing = reduced_swing(reduced, s_curve_trajectory(profile, trip), tails[min(tails, key=lambda one: abs(one - trip[1]))])
         swings.append((max(swing.during, swing.after), swing.after, *trip))
     largest = max(swings)
     sway = BuildingSway(**case["sway"]) if case["sway"] else None
-    swayed = worst(small, sway, heights) if sway else (0.0, 0.0)
+    swayed = worst_parked(reduced, sway, heights) if sway else (0.0, 0.0)
     return {
         "mass": case["mass"], "trip": [largest[2], largest[3]], "swing": largest[0], "after": max(one[1] for one in swings),
-        "sway": swayed[0], "sway_car": swayed[1], "offset": small.rope.offset,
+        "sway": swayed[0], "sway_car": swayed[1], "offset": reduced.rope.offset,
     }  # fmt: skip
 
 
-def full_of_mass(case: Mapping[str, Any]) -> float:
+def full_model_case(case: Mapping[str, Any]) -> float:
     """The swing [m] of one trip on the full model with a sheave of some mass: a case of a sweep."""
-    model = rope_of_mass(validated(case["model"], "case"), case["mass"])
+    model = model_with_sheave(validated(case["model"], "case"), case["mass"])
     trip = (case["trip"][0], case["trip"][1])
-    swing, _ = full_swing(model, case_of(model), course(Profile.model_validate(case["profile"]), trip), tail(model, trip[1]))
+    swing, _ = full_model_swing(
+        model,
+        reduced_model_of(model),
+        s_curve_trajectory(Profile.model_validate(case["profile"]), trip),
+        observation_time(model, trip[1]),
+    )
     return max(swing.during, swing.after)
 
 
 def envelopes(
-    small: Case, profile: Profile, trip: tuple[float, float], watched: float, heights: Floats
+    reduced: ReducedModel, profile: Profile, trip: tuple[float, float], observation: float, heights: Floats
 ) -> list[dict[str, Floats]]:
-    """The farthest departures [m] on a trip, and those after it, at `heights` [m], by side; 0 where the rope never is."""
-    way = course(profile, trip)
-    moved = moves(way, way.end_time + watched, DT)
+    """The farthest departures [m] on a trip, and those after it, at `heights` [m], by side; 0 where no rope passes."""
+    trajectory = s_curve_trajectory(profile, trip)
+    motion = sample_motion(trajectory, trajectory.end_time + observation, SEARCH_STEP)
     whole, after = dict[str, Floats](), dict[str, Floats]()
-    for side, (length, departure) in displacements(small, moved).items():
-        seen = np.abs(_at_heights(departure, length, heights + small.pit))
-        whole[side], after[side] = seen.max(axis=0), seen[moved.time > way.end_time].max(axis=0)
+    for side, (length, departure) in departures_from_rest(reduced, motion).items():
+        envelope = np.abs(_at_heights(departure, length, heights + reduced.pit))
+        whole[side], after[side] = envelope.max(axis=0), envelope[motion.time > trajectory.end_time].max(axis=0)
     return [whole, after]
 
 
 def _at_heights(departure: Floats, length: Floats, above: Floats) -> Floats:
-    """Departures (n, heights) at heights `above` the axle [m], from those at PLACES, evenly spaced; 0 beyond these."""
-    place = (above / length[:, None] - PLACES[0]) / (PLACES[1] - PLACES[0])
-    k = np.clip(place.astype(int), 0, len(PLACES) - 2)
+    """Departures (n, heights) at heights `above` the axle [m], from those at READ_POSITIONS, evenly spaced; 0 beyond these."""
+    place = (above / length[:, None] - READ_POSITIONS[0]) / (READ_POSITIONS[1] - READ_POSITIONS[0])
+    k = np.clip(place.astype(int), 0, len(READ_POSITIONS) - 2)
     rows = np.arange(len(length))[:, None]
     between = (1.0 - place + k) * departure[rows, k] + (place - k) * departure[rows, k + 1]
-    return np.where((place >= 0.0) & (place <= len(PLACES) - 1), between, 0.0)
+    return np.where((place >= 0.0) & (place <= len(READ_POSITIONS) - 1), between, 0.0)

@@ -18,19 +18,19 @@ from ..parallel.progress import Progress, no_progress
 from ..parallel.sweep import sweep, values
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model
 from ..presets.overrides import Changes
-from ..reduced_model.swing import SIDES, tail
+from ..reduced_model.swing import SIDES, observation_time
 from ..studies.design import TOLERANCE
-from ..tuning.task import case_of
-from .building_sway import BuildingSway, parked
+from ..tuning.task import reduced_model_of
+from .building_sway import BuildingSway, parked_departures
 from .result import DesignResult
-from .sensor_placement import choose
-from .trip_envelopes import envelopes, floors, full_of_mass, of_mass, pairs, rope_of_mass
+from .sensor_placement import choose_sensors
+from .trip_envelopes import envelopes, floor_heights, full_model_case, mass_case, model_with_sheave, trips_between
 
-MASSES = np.geomspace(0.35, 8.0, 22)  # of the model's own sheave
+MASS_RATIOS = np.geomspace(0.35, 8.0, 22)  # of the model's own sheave
 LOWEST = 1.5  # m above the axle: where the lowest sensor may be
-BINS = 60  # heights that a sensor may have, on each side
-WORST = 60  # trips that sensors are chosen for: those that swing most, during and after
-TRIES = 12  # of a full model's search for the mass
+SENSOR_POSITIONS = 60  # heights that a sensor may have, on each side
+SELECTED_TRIPS = 60  # trips that sensors are chosen for: those that swing most, during and after
+MAX_RUNS = 12  # of a full model's search for the mass
 
 
 @dataclass(frozen=True)
@@ -88,13 +88,13 @@ def design(
     base |= {"sway": vars(sway) if sway else None}
     with workers(jobs, executor) as chosen:
         sweeps = _Sweeps(chosen, Path(checkpoint) if checkpoint else None, progress)
-        cases = [base | {"mass": float(mass)} for mass in MASSES * given.sheave.mass if _wraps(given, float(mass))]
-        scanned = sweeps.values(of_mass, cases, "masses")
-        mass = _least(scanned, "swing", "swing_limit", _millimetres(options.swing_limit))
+        cases = [base | {"mass": float(mass)} for mass in MASS_RATIOS * given.sheave.mass if _wraps(given, float(mass))]
+        scanned = sweeps.values(mass_case, cases, "masses")
+        mass = _least_mass(scanned, "swing", "swing_limit", _millimetres(options.swing_limit))
         if sway and options.sway_limit is not None:
-            mass = max(mass, _least(scanned, "sway", "sway_limit", _millimetres(options.sway_limit)))
+            mass = max(mass, _least_mass(scanned, "sway", "sway_limit", _millimetres(options.sway_limit)))
         least, runs = _on_full_model(base, scanned, mass, options.swing_limit, sweeps)
-    new_model = rope_of_mass(given, least)
+    new_model = model_with_sheave(given, least)
     settings = {
         "model": model_name(model), "limit": options.swing_limit,
         "sway_limit": None if options.sway_limit is None else _millimetres(options.sway_limit),
@@ -110,12 +110,12 @@ def _millimetres(length: float) -> float:
 
 
 def _wraps(model: RopeModel, mass: float) -> bool:
-    """Whether the rope wraps a sheave of that mass [kg] well enough for the small rope."""
+    """Whether the rope wraps a sheave of that mass [kg] well enough for the reduced model."""
     weight = 0.5 * model.shaft.gravity * mass
     return weight > model.rope.bending_stiffness / model.sheave.radius**2
 
 
-def _least(scanned: Sequence[Mapping[str, Any]], what: str, option: str, limit: float) -> float:
+def _least_mass(scanned: Sequence[Mapping[str, Any]], what: str, option: str, limit: float) -> float:
     """The least mass from which on a limit [mm] is kept by every heavier one scanned, between two of them by a power law."""
     worst = 1e3 * np.array([one[what] for one in scanned])
     masses = np.array([one["mass"] for one in scanned])
@@ -135,13 +135,13 @@ def _least(scanned: Sequence[Mapping[str, Any]], what: str, option: str, limit: 
 def _on_full_model(
     base: Mapping[str, Any], scanned: Sequence[Mapping[str, Any]], mass: float, limit: float, sweeps: _Sweeps
 ) -> tuple[float, list[list[float]]]:
-    """The least mass at which the worst trip keeps the limit on the full model, from the small rope's up; and all runs."""
+    """The least mass at which the worst trip keeps the limit on the full model, from the reduced model's up; and all runs."""
     near = min(scanned, key=lambda one: abs(one["mass"] - mass))
     runs: list[list[float]] = []
 
     def swing(at: float) -> float:
         case = dict(base) | {"mass": at, "trip": near["trip"]}
-        runs.append([at, sweeps.values(full_of_mass, [case], "full model")[0]])
+        runs.append([at, sweeps.values(full_model_case, [case], "full model")[0]])
         return float(runs[-1][1])
 
     high, low, heaviest = mass, mass, scanned[-1]["mass"]
@@ -152,7 +152,7 @@ def _on_full_model(
                 f"swing_limit = {1e3 * limit:g} mm: {1e3 * now:.2f} mm or more is accepted; that is the swing on the full "
                 f"model with a sheave of {low:.0f} kg"
             )
-    while high - low > TOLERANCE * high and len(runs) < TRIES:
+    while high - low > TOLERANCE * high and len(runs) < MAX_RUNS:
         middle = (low * high) ** 0.5
         low, high = (low, middle) if swing(middle) <= limit else (middle, high)
     return high, sorted(runs)
@@ -160,17 +160,22 @@ def _on_full_model(
 
 def _sensors(model: RopeModel, profile: Profile, options: DesignOptions) -> dict[str, Any]:
     """The heights [m] from which a few sensors see most of every large swing."""
-    small, heights = case_of(model), floors(model.shaft.height, options.floors)
-    spots = np.linspace(LOWEST - model.shaft.pit, model.shaft.height, BINS)
+    reduced, heights = reduced_model_of(model), floor_heights(model.shaft.height, options.floors)
+    positions = np.linspace(LOWEST - model.shaft.pit, model.shaft.height, SENSOR_POSITIONS)
     occasions: tuple[list[Any], list[Any]] = ([], [])  # during and after trips
-    for trip in pairs(heights):
-        for kind, seen in zip(occasions, envelopes(small, profile, trip, tail(model, trip[1]), spots), strict=True):
-            kind += [np.concatenate([seen[one], seen[other]]) for one, other in (tuple(SIDES), tuple(SIDES)[::-1])]
-    largest = [one for kind in occasions for one in sorted(kind, key=lambda each: -float(each.max()))[: 2 * WORST]]
-    found = choose(np.array(largest), options.sensors)
-    places = [{"side": "car" if k < BINS else "counterweight", "height": float(spots[k % BINS])} for k in found.places]
-    profile_of = parked(small, options.sway, float(heights[0])) if options.sway else {}
+    for trip in trips_between(heights):
+        for kind, departures in zip(
+            occasions, envelopes(reduced, profile, trip, observation_time(model, trip[1]), positions), strict=True
+        ):
+            kind += [np.concatenate([departures[one], departures[other]]) for one, other in (tuple(SIDES), tuple(SIDES)[::-1])]
+    largest = [one for kind in occasions for one in sorted(kind, key=lambda each: -float(each.max()))[: 2 * SELECTED_TRIPS]]
+    found = choose_sensors(np.array(largest), options.sensors)
+    places = [
+        {"side": "car" if k < SENSOR_POSITIONS else "counterweight", "height": float(positions[k % SENSOR_POSITIONS])}
+        for k in found.places
+    ]
+    profile_of = parked_departures(reduced, options.sway, float(heights[0])) if options.sway else {}
     return {
-        "places": places, "share": found.share, "heights": spots.tolist(), "seen": np.max(largest, axis=0).tolist(),
+        "places": places, "share": found.share, "heights": positions.tolist(), "seen": np.max(largest, axis=0).tolist(),
         "sway_seen": {side: one.tolist() for side, one in profile_of.items()},
     }  # fmt: skip

@@ -1,4 +1,4 @@
-"""The drive's FMU and the rope's FMU on one trip, with sensors all along both sides: the last word on a controller."""
+"""The drive's FMU and the rope's FMU on one trip, with sensors all along both sides: the validation of a controller."""
 
 from dataclasses import dataclass
 
@@ -11,21 +11,21 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.parameters import Sensor
 
 from ..cosim import co_simulate
-from ..reduced_model.string_dynamics import at_rest
-from ..reduced_model.swing import SIDES, Case, Swing, larger, spread
+from ..reduced_model.string_dynamics import rest_shape
+from ..reduced_model.swing import SIDES, ReducedModel, Swing, largest_swing, swing_of_departures
 from ..simulation.elevator import driven
 from ..simulation.result_columns import lateral_output, view_output
-from .search.profile_families import Way, course_of
+from .search.profile_families import Route, trajectory_of
 
 Floats = NDArray[np.float64]
 
-EACH = 8  # sensors over a side as it is before the trip, and as many over it as it is after
+SENSORS_PER_LENGTH = 8  # sensors over a side as it is before the trip, and as many over it as it is after
 STEP = 0.02  # s, communication step
-BEGIN = 0.5  # s at rest before the trip
+REST_BEFORE = 0.5  # s at rest before the trip
 
 
 @dataclass(frozen=True)
-class Trace:
+class DepartureTrace:
     """Times (n,) [s], the car's height (n,) [m], and by side the departures from rest (n, sensors) [m], NaN without the rope."""
 
     time: Floats
@@ -35,7 +35,7 @@ class Trace:
 
     def swing(self) -> Swing:
         """The swing of both sides."""
-        return larger([spread(one, self.time > self.end) for one in self.departures.values()])
+        return largest_swing([swing_of_departures(one, self.time > self.end) for one in self.departures.values()])
 
     def largest(self) -> Floats:
         """The largest departure anywhere at each time (n,) [m]."""
@@ -43,40 +43,46 @@ class Trace:
         return np.where(np.isfinite(both), np.abs(both), 0.0).max(axis=1)
 
 
-def installed(model: RopeModel, case: Case, drive: Drive, way: Way, watched: float, direct: bool = False) -> Trace:
-    """Run drive and rope, as FMUs unless `direct`, along a way and `watched` [s] after it."""
-    heights = {side: _heights(case, way, side) for side in SIDES}
+def simulate_route(
+    model: RopeModel, reduced: ReducedModel, drive: Drive, route: Route, observation: float, direct: bool = False
+) -> DepartureTrace:
+    """Run drive and rope, as FMUs unless `direct`, along a route and `observation` [s] after it."""
+    heights = {side: _heights(reduced, route, side) for side in SIDES}
     sensors = tuple(
         Sensor(name=f"{side}{k}", side=side, height=float(height))  # type: ignore[arg-type]
         for side, each in heights.items()
         for k, height in enumerate(each)
     )
-    trip = {"start_position": way.origin, "destination": way.destination, "start_time": BEGIN}
-    set_out = drive.model_copy(update={"trip": drive.trip.model_copy(update=trip)})
-    course: ReferenceTrajectory = course_of(set_out, way, BEGIN)
-    times, cars, seen = [], [], []
-    with driven(model.model_copy(update={"sensors": sensors}), set_out, direct) as lift:
-        for sample in co_simulate(lift.participants, lift.connections, course.end_time + watched, STEP):
-            out = sample.outputs["rope"]
+    trip = {"start_position": route.origin, "destination": route.destination, "start_time": REST_BEFORE}
+    trip_drive = drive.model_copy(update={"trip": drive.trip.model_copy(update=trip)})
+    trajectory: ReferenceTrajectory = trajectory_of(trip_drive, route, REST_BEFORE)
+    times, cars, samples = [], [], []
+    with driven(model.model_copy(update={"sensors": sensors}), trip_drive, direct) as elevator:
+        for sample in co_simulate(elevator.participants, elevator.connections, trajectory.end_time + observation, STEP):
+            rope_outputs = sample.outputs["rope"]
             times.append(sample.time)
             cars.append(sample.outputs["motion"]["car_position"])
-            seen.append([out[lateral_output(k)] if out[view_output(k)] else np.nan for k in range(len(sensors))])
-    return _trace(case, heights, course.end_time, np.array(times), np.array(cars), np.array(seen))
+            samples.append(
+                [rope_outputs[lateral_output(k)] if rope_outputs[view_output(k)] else np.nan for k in range(len(sensors))]
+            )
+    return _trace(reduced, heights, trajectory.end_time, np.array(times), np.array(cars), np.array(samples))
 
 
-def _heights(case: Case, way: Way, side: str) -> Floats:
+def _heights(reduced: ReducedModel, route: Route, side: str) -> Floats:
     """Where the sensors of a side are [m above the bottom landing]."""
-    lengths = case.length(side, np.array([way.origin, way.destination]))
-    return np.concatenate([length * np.linspace(0.08, 0.92, EACH) for length in lengths]) - case.pit
+    lengths = reduced.length(side, np.array([route.origin, route.destination]))
+    return np.concatenate([length * np.linspace(0.08, 0.92, SENSORS_PER_LENGTH) for length in lengths]) - reduced.pit
 
 
-def _trace(case: Case, heights: dict[str, Floats], end: float, time: Floats, car: Floats, seen: Floats) -> Trace:
+def _trace(
+    reduced: ReducedModel, heights: dict[str, Floats], end: float, time: Floats, car: Floats, samples: Floats
+) -> DepartureTrace:
     """Departures of both sides from their shapes at rest, where the sensors see the rope clear of the sheave."""
     departures, first = {}, 0
     for side, each in heights.items():
-        length, above = case.length(side, car), each + case.pit
-        rest = np.array([at_rest(case.rope, np.array([one]), np.minimum(above / one, 1.0))[0] for one in length])
-        own = seen[:, first : first + len(each)] - rest
-        departures[side] = np.where(above >= case.clear, own, np.nan)
+        length, above = reduced.length(side, car), each + reduced.pit
+        rest = np.array([rest_shape(reduced.rope, np.array([one]), np.minimum(above / one, 1.0))[0] for one in length])
+        own = samples[:, first : first + len(each)] - rest
+        departures[side] = np.where(above >= reduced.clearance, own, np.nan)
         first += len(each)
-    return Trace(time, car, end, departures)
+    return DepartureTrace(time, car, end, departures)

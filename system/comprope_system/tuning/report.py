@@ -98,10 +98,10 @@ def _quiet(result: Result) -> list[Block]:
     for trip in result["trips"]:
         present = trip["present"]["time"]
         cells = []
-        for saved, least in zip(trip["saved"], trip["bound"]["times"], strict=True):
-            left = saved["full"][1] / trip["present"]["full"][1] if saved["full"] else None
+        for least_times, least in zip(trip["saved"], trip["bound"]["times"], strict=True):
+            left = least_times["full"][1] / trip["present"]["full"][1] if least_times["full"] else None
             cells += [
-                f"+{saved['time'] - present:.2f}" if saved["time"] else "none found",
+                f"+{least_times['time'] - present:.2f}" if least_times["time"] else "none found",
                 f"{100.0 * (1.0 - left):.0f}" if left is not None else "",
                 f"+{max(least - present, 0.0):.2f}" if least else "none",
             ]  # fmt: skip
@@ -118,10 +118,11 @@ def _quiet(result: Result) -> list[Block]:
         "since the period of the rope changes during the trip and other modes contribute, the actual value may be larger or "
         "smaller."
     )
-    told = f"Shorter than half a period, so that no profile avoids the excitation: {', '.join(short)}." if short else (
-        "Every trip lasts longer than half a period."
-    )  # fmt: skip
-    return [text, Table(head, rows), told]
+    if short:
+        remark = f"Shorter than half a period, so that no profile avoids the excitation: {', '.join(short)}."
+    else:
+        remark = "Every trip lasts longer than half a period."
+    return [text, Table(head, rows), remark]
 
 
 def _robust(result: Result) -> list[Block]:
@@ -173,9 +174,14 @@ def _controller(result: Result) -> list[Block]:
 
 def errors(trips: Sequence[Mapping[str, Any]]) -> list[float]:
     """Relative errors of the swing of the reduced model, during and after all trips: full / reduced - 1."""
-    told = [trip["present"] for trip in trips]
-    told += [point[key] for trip in trips for point in trip["points"] for key in ("s_curve", "tuned")]
-    return [full / small - 1.0 for one in told for small, full in zip(one["small"], one["full"], strict=True) if small > 0.0]
+    evaluated = [trip["present"] for trip in trips]
+    evaluated += [point[key] for trip in trips for point in trip["points"] for key in ("s_curve", "tuned")]
+    return [
+        full / reduced - 1.0
+        for one in evaluated
+        for reduced, full in zip(one["small"], one["full"], strict=True)
+        if reduced > 0.0
+    ]
 
 
 def _search(result: Result) -> list[Block]:

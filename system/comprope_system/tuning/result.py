@@ -15,7 +15,7 @@ from ..report.json_output import save_json
 from ..report.page import save_page, save_pictures
 from ..report.result import Result
 from . import report
-from .task import CHOSEN
+from .task import TUNED_PARTS
 
 PAGE, RESULT, MODELS, CONTROLLER = "tuning.html", "result.json", "rope_models.json", "controller.drive.toml"
 
@@ -83,7 +83,7 @@ class TuningResult(Result):
 
 def save_drive(path: Path, drive: Drive, heading: str) -> None:
     """Write profile, curve, shaper and servo of a drive as a parameter file, completely or not at all."""
-    table = drive.model_dump(include=CHOSEN)
+    table = drive.model_dump(include=TUNED_PARTS)
     if not drive.curve.used:
         del table["curve"]
     with atomic_write(path) as temporary:

@@ -10,13 +10,13 @@ from comprope.rope.model_file import as_table, with_changes
 
 from ..modal.hanging_string import side_string
 from ..presets.paper_installations import with_sheave
-from ..reduced_model.calibration import calibrated
-from ..reduced_model.hoist_bounce import Hoist, hoist_of
-from ..reduced_model.swing import Case, Swing, tail
-from .fmu_validation import installed
-from .search.profile_families import Way, course_of
+from ..reduced_model.calibration import calibrated_string
+from ..reduced_model.hoist_bounce import HoistBounce, hoist_bounce
+from ..reduced_model.swing import ReducedModel, Swing, observation_time
+from .fmu_validation import simulate_route
+from .search.profile_families import Route, trajectory_of
 
-CHOSEN = {"profile", "curve", "shaper", "servo"}  # parts of the drive that a tuning chooses
+TUNED_PARTS = {"profile", "curve", "shaper", "servo"}  # parts of the drive that a tuning chooses
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Task:
     model: RopeModel
     drive: Drive
     present: Drive
-    way: Way
+    route: Route
     factors: Sequence[float]
     weight: float
     spread: float
@@ -39,30 +39,30 @@ class Task:
     limit: float | None = None
 
     @property
-    def watched(self) -> float:
+    def observation(self) -> float:
         """Time [s] after the trip over which the swing is evaluated."""
-        return tail(self.model, self.way.destination)
+        return observation_time(self.model, self.route.destination)
 
     @property
-    def hoist(self) -> Hoist:
+    def hoist(self) -> HoistBounce:
         """Vertical vibration of car and counterweight with the present servo."""
-        return hoist_of(self.drive)
+        return hoist_bounce(self.drive)
 
-    def case(self, mass: float = 1.0) -> Case:
+    def reduced_model(self, mass: float = 1.0) -> ReducedModel:
         """Reduced model with the sheave's mass multiplied by `mass`."""
-        return case_of(heavier(self.model, mass), self.hoist)
+        return reduced_model_of(with_sheave_factor(self.model, mass), self.hoist)
 
-    def cases(self) -> list[Case]:
+    def reduced_models(self) -> list[ReducedModel]:
         """The ropes for which the search evaluates a drive."""
-        return [self.case()] + [self.case(1.0 + sign * self.spread) for sign in (-1.0, 1.0) if self.spread]
+        return [self.reduced_model()] + [self.reduced_model(1.0 + sign * self.spread) for sign in (-1.0, 1.0) if self.spread]
 
 
-def case_of(model: RopeModel, hoist: Hoist | None = None) -> Case:
+def reduced_model_of(model: RopeModel, hoist: HoistBounce | None = None) -> ReducedModel:
     """Reduced model of the rope in its shaft."""
-    return Case(calibrated(model), model.shaft.height, model.shaft.pit, hoist)
+    return ReducedModel(calibrated_string(model), model.shaft.height, model.shaft.pit, hoist)
 
 
-def heavier(model: RopeModel, factor: float) -> RopeModel:
+def with_sheave_factor(model: RopeModel, factor: float) -> RopeModel:
     """The model with mass and inertia of the sheave multiplied by a factor."""
     return model if factor == 1.0 else with_changes(model, with_sheave(model, model.sheave.mass * factor), "sheave")
 
@@ -77,21 +77,21 @@ def as_case(task: Task) -> dict[str, Any]:
     """The task as a case of a sweep."""
     return {
         "model": as_table(task.model), "drive": task.drive.model_dump(), "present": task.present.model_dump(),
-        "way": [task.way.origin, task.way.destination],
+        "way": [task.route.origin, task.route.destination],
         "factors": list(task.factors), "weight": task.weight, "spread": task.spread, "chosen": task.chosen, "limit": task.limit,
     }  # fmt: skip
 
 
-def told_of(task: Task, drive: Drive, kind: str, small: Swing) -> dict[str, Any]:
+def evaluated(task: Task, drive: Drive, kind: str, reduced: Swing) -> dict[str, Any]:
     """A drive with its travel time and its swings with the reduced and the full model."""
-    course = course_of(drive, task.way)
-    full = installed(task.model, task.case(), drive, task.way, task.watched, direct=True).swing()
+    trajectory = trajectory_of(drive, task.route)
+    full = simulate_route(task.model, task.reduced_model(), drive, task.route, task.observation, direct=True).swing()
     return {
-        "kind": kind, "time": course.duration, "drive": drive.model_dump(include=CHOSEN),
-        "small": [small.during, small.after], "full": [full.during, full.after],
+        "kind": kind, "time": trajectory.duration, "drive": drive.model_dump(include=TUNED_PARTS),
+        "small": [reduced.during, reduced.after], "full": [full.during, full.after],
     }  # fmt: skip
 
 
 def slowest_bounce(task: Task) -> float:
     """Longest period of the vertical vibration of the car during the trip [s]."""
-    return max(task.hoist.period(height) for height in (task.way.origin, task.way.destination))
+    return max(task.hoist.period(height) for height in (task.route.origin, task.route.destination))

@@ -16,19 +16,19 @@ from ..parallel.progress import Progress, no_progress
 from ..parallel.sweep import sweep, values
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model
 from ..presets.overrides import Changes
-from ..reduced_model.calibration import calibrated
-from ..reduced_model.state_space import as_json, rope_model
+from ..reduced_model.calibration import calibrated_string
+from ..reduced_model.state_space import as_json, rope_state_space
 from .result import TuningResult
-from .search.profile_families import Way
-from .search.servo_gains import Gains, best_gains, gains_of
-from .shared_controller import joint, told
+from .search.profile_families import Route
+from .search.servo_gains import Gains, best_gains, loop_margins
+from .shared_controller import shared_controller, shared_controller_json
 from .task import Task, as_case, periods
-from .trip_tuning import drive_of, installed_case, tuned_trip
+from .trip_tuning import drive_of, fmu_case, tuned_trip
 
 TRIPS = ((0.0, 0.04), (0.0, 0.11), (0.0, 0.3), (0.0, 1.0), (1.0, 0.85), (0.5, 0.6))  # of the shaft's height
 POSITIONS = (0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0)  # of the car over the shaft's height, of the state-space models
-SEEN = ("model", "way")  # of a trip's case, all that its swing depends on beside the drive
-SHORTEST, LONGEST = 1.0, 5.0  # travel times over the present one
+ROPE_KEYS = ("model", "way")  # of a trip's case, all that its swing depends on beside the drive
+SHORTEST, MAX_TIME_FACTOR = 1.0, 5.0  # travel times over the present one
 LEAST_DISTANCE = 0.5  # m between the ends of a trip
 
 
@@ -72,21 +72,23 @@ def tune(
     changed = read_model(model, changes)
     present = present_drive(drive, model, changed)
     trips, factors = read_trips(options.trips, changed.shaft.height), _factors(options.travel_times)
-    rope = calibrated(changed)
-    before, after = gains_of(present), best_gains(present)
+    rope = calibrated_string(changed)
+    before, after = loop_margins(present), best_gains(present)
     tasks = [_task(options, changed, present, after, trip, factors) for trip in trips]
     store = Path(checkpoint) if checkpoint else None
     with workers(jobs, executor) as chosen:
         found = values(sweep(tuned_trip, [as_case(task) for task in tasks], chosen, store, "tuning trips", progress))
-        common = joint(tasks, options.extra_time)
+        common = shared_controller(tasks, options.extra_time)
         cases = [_shared_case(task, common.drive) for task in tasks] if common else []
-        full = values(sweep(installed_case, cases, chosen, store, "one controller", progress))
+        full = values(sweep(fmu_case, cases, chosen, store, "one controller", progress))
     settings = {
         "model": model_name(model), "extra": options.extra_time, "limit": _millimetres(options.swing_limit),
-        "weight": options.residual_weight, "spread": options.mass_spread, "rope": {"held": rope.held, "offset": rope.offset},
+        "weight": options.residual_weight, "spread": options.mass_spread,
+        "rope": {"held": rope.offset_coefficients, "offset": rope.offset},
     }  # fmt: skip
     return TuningResult(
-        settings, {"present": before.told(), "chosen": after.told()}, tuple(found), told(common, full) if common else None,
+        settings, {"present": before.to_json(), "chosen": after.to_json()}, tuple(found),
+        shared_controller_json(common, full) if common else None,
         _drives(tasks, found), common.drive if common else None, _rope_models(tasks[0]),
     )  # fmt: skip
 
@@ -124,8 +126,8 @@ def _heights(text: str) -> tuple[float, float]:
 
 def _factors(times: Sequence[float]) -> list[float]:
     """Travel times over the present one in rising order; raises `InputError` if one is out of range."""
-    if wrong := [one for one in times if not SHORTEST <= one <= LONGEST]:
-        raise InputError(f"travel_times: {wrong[0]}: numbers from {SHORTEST:g} to {LONGEST:g} are accepted")
+    if wrong := [one for one in times if not SHORTEST <= one <= MAX_TIME_FACTOR]:
+        raise InputError(f"travel_times: {wrong[0]}: numbers from {SHORTEST:g} to {MAX_TIME_FACTOR:g} are accepted")
     return sorted(times)
 
 
@@ -144,14 +146,14 @@ def _task(
 ) -> Task:
     bare = model.model_copy(update={"sensors": ()})
     drive = present.model_copy(update={"servo": gains.servo})
-    way = Way(*trip, periods(model))
+    route = Route(*trip, periods(model))
     weights = options.residual_weight, options.mass_spread
-    return Task(bare, drive, present, way, factors, *weights, 1.0 + options.extra_time, options.swing_limit)
+    return Task(bare, drive, present, route, factors, *weights, 1.0 + options.extra_time, options.swing_limit)
 
 
 def _shared_case(task: Task, drive: Drive) -> dict[str, Any]:
     """One trip of the controller for all trips, whose swing its FMUs give."""
-    return {"drive": drive.model_dump()} | {key: value for key, value in as_case(task).items() if key in SEEN}
+    return {"drive": drive.model_dump()} | {key: value for key, value in as_case(task).items() if key in ROPE_KEYS}
 
 
 def _drives(tasks: Sequence[Task], trips: Sequence[Mapping[str, Any]]) -> dict[str, tuple[Drive, str]]:
@@ -171,4 +173,4 @@ def _drives(tasks: Sequence[Task], trips: Sequence[Mapping[str, Any]]) -> dict[s
 def _rope_models(task: Task) -> dict[str, Any]:
     """State-space models of the rope by the car's position [m]."""
     positions = [share * task.model.shaft.height for share in POSITIONS]
-    return {f"{car:g}": as_json(rope_model(task.case(), car)) for car in positions}
+    return {f"{car:g}": as_json(rope_state_space(task.reduced_model(), car)) for car in positions}

@@ -11,8 +11,8 @@ from comprope.drive.parameters import SHORTEST, Drive, Profile, Shaper
 from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory, reference_trajectory
 from comprope.drive.trajectory.s_curve import plan_s_curve
 
-START = 0.1  # s at rest before a trip in the search
-LEAST = 0.05  # of the largest acceleration: slower trips are not looked for
+REST_BEFORE = 0.1  # s at rest before a trip in the search
+MIN_ACCELERATION_SHARE = 0.05  # of the largest acceleration: slower trips are not looked for
 SHARES = {"speed": (0.1, 1.0), "jerk": (0.06, 1.0), "smoothing": (0.0, 0.5), "period": (0.05, 1.4)}
 EI = 0.05  # tolerance of the EI shaper
 KINDS: Mapping[str, tuple[int, float, bool]] = {  # impulses, tolerance, smoothing
@@ -21,7 +21,7 @@ KINDS: Mapping[str, tuple[int, float, bool]] = {  # impulses, tolerance, smoothi
 
 
 @dataclass(frozen=True)
-class Way:
+class Route:
     """A trip between two heights [m], and the rope's natural periods [s] with the car near a landing and at mid-height."""
 
     origin: float
@@ -34,7 +34,7 @@ class Way:
         return abs(self.destination - self.origin)
 
 
-def names(kind: str) -> tuple[str, ...]:
+def share_names(kind: str) -> tuple[str, ...]:
     """Names of the parameters of a family."""
     impulses, _, smooth = KINDS[kind]
     return ("speed", "jerk", *(["smoothing"] if smooth else []), *(["period"] if impulses > 1 else []))
@@ -56,23 +56,23 @@ def drive_for(drive: Drive, kind: str, shares: Mapping[str, float], periods: tup
     return drive.model_copy(update={"profile": profile, "shaper": shaper})
 
 
-def course_of(drive: Drive, way: Way, start: float = START) -> ReferenceTrajectory:
+def trajectory_of(drive: Drive, route: Route, start: float = REST_BEFORE) -> ReferenceTrajectory:
     """Reference trajectory of a drive on a trip."""
-    return reference_trajectory(drive, plan_s_curve(drive.profile, way.origin, way.destination, start))
+    return reference_trajectory(drive, plan_s_curve(drive.profile, route.origin, route.destination, start))
 
 
-def drive_in_time(drive: Drive, kind: str, shares: Mapping[str, float], ways: list[Way], time: float) -> Drive | None:
+def drive_in_time(drive: Drive, kind: str, shares: Mapping[str, float], routes: list[Route], time: float) -> Drive | None:
     """The drive with these parameters whose trips take `time` [s] in total; None if it cannot be so fast.
 
     The acceleration is found by bisection, within the drive's own limit.
     """
-    most = drive.profile.acceleration
+    maximum = drive.profile.acceleration
 
     def made(acceleration: float) -> tuple[Drive, float]:
-        one = drive_for(drive, kind, shares, ways[0].periods, acceleration)
-        return one, sum(course_of(one, way).duration for way in ways)
+        one = drive_for(drive, kind, shares, routes[0].periods, acceleration)
+        return one, sum(trajectory_of(one, route).duration for route in routes)
 
-    low, high = LEAST * most, most
+    low, high = MIN_ACCELERATION_SHARE * maximum, maximum
     best, fastest = made(high)
     if fastest > time * (1.0 + 1e-9):
         return None

@@ -11,16 +11,16 @@ from scipy.stats import qmc
 from comprope.drive.parameters import Drive
 
 from ...reduced_model.swing import Swing
-from .profile_families import SHARES, Way, drive_in_time, names
+from .profile_families import SHARES, Route, drive_in_time, share_names
 
 Floats = NDArray[np.float64]
-Judge = Callable[[Drive], list[Swing]]
+Evaluate = Callable[[Drive], list[Swing]]
 Cost = Callable[[list[Swing]], float]
 
-SAMPLES, POLISHED, STEPS = 64, 2, 60
+SAMPLES, REFINED, REFINEMENT_STEPS = 64, 2, 60
 INFEASIBLE = 1e9
-SAME = 0.06  # shares all nearer than that are the same candidate
-ALIKE = 1e-2  # of a cost: nearer than that too, however far the shares: a short trip never reaches its limit of speed
+SAME_SHARE = 0.06  # shares all nearer than that are the same candidate
+SAME_COST = 1e-2  # of a cost: nearer than that too, however far the shares: a short trip never reaches its limit of speed
 
 
 @dataclass(frozen=True)
@@ -36,12 +36,12 @@ class Candidate:
 
 @dataclass
 class Search:
-    """A search over trips of a drive on `ways` that take `time` [s] in total, evaluated by `judge` and `cost`."""
+    """A search over trips of a drive on `routes` that take `time` [s] in total, evaluated by `evaluate` and `cost`."""
 
     drive: Drive
-    ways: list[Way]
+    routes: list[Route]
     time: float
-    judge: Judge
+    evaluate: Evaluate
     cost: Cost
     tried: dict[tuple[float, ...], Candidate] = field(default_factory=dict)
 
@@ -51,36 +51,36 @@ class Search:
         `starts` are additional initial parameters.
         """
         self.tried = {}
-        keys = names(kind)
-        first = [np.array([start.get(key, self._still(key)) for key in keys]) for start in starts]
+        keys = share_names(kind)
+        first = [np.array([start.get(key, self._neutral_share(key)) for key in keys]) for start in starts]
         for point in [*first, *_samples(keys)]:
-            self._try(kind, keys, point)
-        for one in _unlike(self.tried.values(), keys, POLISHED):
-            self._polish(kind, keys, np.array([one.shares[key] for key in keys]))
-        return _unlike(self.tried.values(), keys, count)
+            self._evaluate_shares(kind, keys, point)
+        for one in _distinct(self.tried.values(), keys, REFINED):
+            self._refine(kind, keys, np.array([one.shares[key] for key in keys]))
+        return _distinct(self.tried.values(), keys, count)
 
-    def _still(self, key: str) -> float:
+    def _neutral_share(self, key: str) -> float:
         """Parameter value with the smallest change of the profile."""
         return SHARES[key][0] if key == "smoothing" else 1.0
 
-    def _try(self, kind: str, keys: tuple[str, ...], point: Floats) -> float:
+    def _evaluate_shares(self, kind: str, keys: tuple[str, ...], point: Floats) -> float:
         low, high = np.array([SHARES[key] for key in keys]).T
         outside = float(np.maximum(low - point, 0.0).sum() + np.maximum(point - high, 0.0).sum())
         shares = dict(zip(keys, np.clip(point, low, high).tolist(), strict=True))
-        made = drive_in_time(self.drive, kind, shares, self.ways, self.time)
+        made = drive_in_time(self.drive, kind, shares, self.routes, self.time)
         if made is None:
             return INFEASIBLE
-        swings = self.judge(made)
+        swings = self.evaluate(made)
         cost = self.cost(swings)
         self.tried[tuple(shares.values())] = Candidate(kind, shares, made, swings, cost)
         return cost * (1.0 + outside)
 
-    def _polish(self, kind: str, keys: tuple[str, ...], point: Floats) -> None:
+    def _refine(self, kind: str, keys: tuple[str, ...], point: Floats) -> None:
         low, high = np.array([SHARES[key] for key in keys]).T
         simplex = np.vstack([point, point + 0.08 * np.diag(np.where(point > 0.5 * (low + high), low - high, high - low))])
         minimize(
-            lambda at: self._try(kind, keys, at), point, method="Nelder-Mead",
-            options={"maxfev": STEPS, "initial_simplex": simplex, "xatol": 1e-3, "fatol": 1e-4},
+            lambda at: self._evaluate_shares(kind, keys, at), point, method="Nelder-Mead",
+            options={"maxfev": REFINEMENT_STEPS, "initial_simplex": simplex, "xatol": 1e-3, "fatol": 1e-4},
         )  # fmt: skip
 
 
@@ -90,12 +90,13 @@ def _samples(keys: tuple[str, ...]) -> Floats:
     return np.asarray(low + (high - low) * points)
 
 
-def _unlike(candidates: Iterable[Candidate], keys: tuple[str, ...], count: int) -> list[Candidate]:
+def _distinct(candidates: Iterable[Candidate], keys: tuple[str, ...], count: int) -> list[Candidate]:
     """The candidates of lowest cost that differ from each other in a parameter and in cost."""
     found: list[Candidate] = []
     for one in sorted(candidates, key=lambda each: each.cost):
         if all(
-            any(abs(one.shares[key] - other.shares[key]) > SAME for key in keys) and one.cost > (1.0 + ALIKE) * other.cost
+            any(abs(one.shares[key] - other.shares[key]) > SAME_SHARE for key in keys)
+            and one.cost > (1.0 + SAME_COST) * other.cost
             for other in found
         ):
             found.append(one)

@@ -9,9 +9,9 @@ import numpy as np
 from comprope.drive.parameters import Drive, Servo
 from comprope.drive.stability_margins import Margins, margins, unstable_positions
 
-from ...reduced_model.hoist_bounce import hoist_of
+from ...reduced_model.hoist_bounce import hoist_bounce
 
-LEAST_GAIN, LEAST_PHASE, LEAST_DELAY = 2.0, 45.0, 0.02  # factor, degrees, s
+MIN_GAIN_MARGIN, MIN_PHASE_MARGIN, MIN_DELAY_MARGIN = 2.0, 45.0, 0.02  # factor, degrees, s
 POSITION = (0.5, 1.0, 1.5)  # of the present position bandwidth
 SPEED = (0.3, 0.45, 0.7, 1.0, 1.5)  # of the present speed bandwidth
 DAMPING = (0.7, 1.2)
@@ -28,37 +28,37 @@ class Gains:
     bounce: float
 
     @property
-    def kept(self) -> bool:
+    def margins_met(self) -> bool:
         """Whether the required margins are met."""
-        return self.gain >= LEAST_GAIN and self.phase >= LEAST_PHASE and self.delay >= LEAST_DELAY
+        return self.gain >= MIN_GAIN_MARGIN and self.phase >= MIN_PHASE_MARGIN and self.delay >= MIN_DELAY_MARGIN
 
-    def told(self) -> dict[str, float]:
+    def to_json(self) -> dict[str, float]:
         """As JSON holds it."""
         own = {key: getattr(self.servo, key) for key in ("position_bandwidth", "speed_bandwidth", "speed_damping")}
         return own | {key: value for key, value in asdict(self).items() if key != "servo"}
 
 
-def gains_of(drive: Drive) -> Gains:
+def loop_margins(drive: Drive) -> Gains:
     """Margins of a drive's servo: worst gain margin up or down, phase [degrees], delay [s]."""
     places = (0.0, 0.5 * drive.shaft.height, drive.shaft.height)
     found: Sequence[Margins] = [margins(drive, place) for place in places]
     gain = min(min(one.gain_rise, one.gain_fall) for one in found)
     delay = min(np.radians(one.phase) / one.crossover for one in found)
-    return Gains(drive.servo, gain, min(one.phase for one in found), float(delay), float(_slow_damping(drive)))
+    return Gains(drive.servo, gain, min(one.phase for one in found), float(delay), float(_bounce_damping(drive)))
 
 
 def best_gains(drive: Drive) -> Gains:
     """The gains with the highest damping within the margins, near the present ones; the present ones if none are better."""
-    present = gains_of(drive)
-    for one in sorted(_near(drive), key=_slow_damping, reverse=True):
-        if present.kept and _slow_damping(one) <= present.bounce:
+    present = loop_margins(drive)
+    for one in sorted(_candidates(drive), key=_bounce_damping, reverse=True):
+        if present.margins_met and _bounce_damping(one) <= present.bounce:
             return present
-        if not unstable_positions(one) and (made := gains_of(one)).kept:
+        if not unstable_positions(one) and (made := loop_margins(one)).margins_met:
             return made
     return present
 
 
-def _near(drive: Drive) -> list[Drive]:
+def _candidates(drive: Drive) -> list[Drive]:
     """The drive with other gains, position control well below speed control."""
     own, found = drive.servo, []
     for position, speed, damping in product(POSITION, SPEED, DAMPING):
@@ -69,8 +69,8 @@ def _near(drive: Drive) -> list[Drive]:
     return found
 
 
-def _slow_damping(drive: Drive) -> float:
+def _bounce_damping(drive: Drive) -> float:
     """Mean damping ratio of the slower vibration over car positions."""
-    hoist = hoist_of(drive)
+    hoist = hoist_bounce(drive)
     slower = np.argmin(hoist.frequency, axis=0)
     return float(hoist.damping[slower, np.arange(len(slower))].mean())
