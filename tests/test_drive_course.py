@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from comprope.drive.cosimulation import create, interface
-from comprope.drive.parameters import PARTS, Curve, Drive, FirstTrip, Profile, Shaper
-from comprope.drive.trajectory.input_shaper import impulses, period_at
+from comprope.drive.parameters import INTERVALS, Curve, Drive, FirstTrip, Profile, Shaper
+from comprope.drive.trajectory.input_shaper import design_period, impulses
 from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory, first_trajectory
 from comprope.errors import InputError
 
-WAVE = [math.sin(2.0 * math.pi * k / PARTS) for k in range(1, PARTS)]
+WAVE = [math.sin(2.0 * math.pi * k / INTERVALS) for k in range(1, INTERVALS)]
 CURVE = Curve(**{f"a{k}": value for k, value in enumerate(WAVE, 1)})
 SHARES = [0.9, 1.0, 0.5, 0.6, 0.3, 0.2, 0.1, 0.0, -0.1, 0.2, -0.3, -0.2, -0.1, -0.2, -0.4, -0.5, -0.7, -0.8, -0.5]
 LOPSIDED = Curve(**{f"a{k}": value for k, value in enumerate(SHARES, 1)})
@@ -55,7 +55,7 @@ def test_ei_leaves_its_tolerance_at_its_period_and_no_more_over_a_wider_band_tha
 
 def test_the_period_follows_the_trip_s_place() -> None:
     own = Shaper(period_landing=10.0, period_middle=6.0)
-    places = [period_at(own, way, 200.0) for way in ((0.0, 0.0), (200.0, 200.0), (50.0, 150.0), (0.0, 100.0))]
+    places = [design_period(own, way, 200.0) for way in ((0.0, 0.0), (200.0, 200.0), (50.0, 150.0), (0.0, 100.0))]
     assert places == pytest.approx([10.0, 10.0, 6.0, 8.0])
 
 
@@ -109,8 +109,8 @@ def test_a_free_shape_is_as_fast_as_its_limits_allow() -> None:
 
 def test_without_shaping_a_course_is_its_trip() -> None:
     course = first_trajectory(Drive())
-    assert course == ReferenceTrajectory(course.trip)
-    assert [course.at(one) for one in (3.0, 9.0)] == [course.trip.at(one) for one in (3.0, 9.0)]
+    assert course == ReferenceTrajectory(course.unshaped)
+    assert [course.at(one) for one in (3.0, 9.0)] == [course.unshaped.at(one) for one in (3.0, 9.0)]
 
 
 def test_no_way_takes_no_time_however_it_is_shaped() -> None:

@@ -8,11 +8,11 @@ import control
 import numpy as np
 import pytest
 
-from comprope.drive.cosimulation import create, drive_of, interface
+from comprope.drive.cosimulation import create, drive_from_parameters, interface
 from comprope.drive.hoist_dynamics import INPUTS, state_space
 from comprope.drive.parameters import Drive, FirstTrip, Servo
-from comprope.drive.scheduled_plant import cells
-from comprope.drive.servo_control import design, sampled_speed_control
+from comprope.drive.scheduled_plant import scheduled_plant
+from comprope.drive.servo_control import design_servo, sampled_speed_control
 from comprope.drive.simulator import DriveSimulator
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError, SimulationError
@@ -111,11 +111,11 @@ def test_power_of_the_motor_is_what_the_masses_and_weights_take(up: list[dict[st
 def small_trip(load: float) -> tuple[list[dict[str, Any]], np.ndarray]:
     """A trip of 15 mm, within one cell, with a pull of `load` N on the car from the start; and python-control's answer."""
     drive = Drive(trip=FirstTrip(destination=0.015, start_time=0.0))
-    assert cells(drive).at(0.015) == 0
+    assert scheduled_plant(drive).operating_point(0.015) == 0
     period, n = drive.servo.sample_period, 1500
     hoist = control.sample_system(state_space(drive, 0.0), period, method="zoh")
     hoist.name = "hoist"
-    law, speed = design(drive), sampled_speed_control(drive)
+    law, speed = design_servo(drive), sampled_speed_control(drive)
     speed.name, speed.output_labels = "speed", ["f_pi"]
     position = control.ss(
         [], [], [], [[3.0, 1.0, -3.0, -1.0]], period, inputs=["x", "v", "s", "v_s"], outputs=["e"], name="position"
@@ -248,7 +248,7 @@ def test_a_motor_too_weak_is_an_error() -> None:
 
 def test_impossible_parameters_are_named_all_at_once() -> None:
     with pytest.raises(InputError) as caught:
-        drive_of({"profile.speed": -1.0, "plant.car_mass": 1.0, "servo.colour": 3.0, "trip.destination": 20.0})
+        drive_from_parameters({"profile.speed": -1.0, "plant.car_mass": 1.0, "servo.colour": 3.0, "trip.destination": 20.0})
     text = str(caught.value)
     assert "profile.speed = -1.0: a number from 0.01 to 25 m/s is accepted" in text
     assert "plant.car_mass = 1.0: a number from 50 to 100000 kg is accepted" in text

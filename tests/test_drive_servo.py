@@ -4,10 +4,10 @@ import control
 import numpy as np
 import pytest
 
-from comprope.drive.hoist_dynamics import T_C, T_W, V_C, V_S, X_C, X_W, S, holding_force, lumps, moving_mass, state_space
+from comprope.drive.hoist_dynamics import T_C, T_W, V_C, V_S, X_C, X_W, S, holding_force, lumped_hoist, moving_mass, state_space
 from comprope.drive.parameters import Drive, Plant, Servo, Shaft
-from comprope.drive.scheduled_plant import cells
-from comprope.drive.servo_control import continuous_speed_control, design, sampled_speed_control
+from comprope.drive.scheduled_plant import scheduled_plant
+from comprope.drive.servo_control import continuous_speed_control, design_servo, sampled_speed_control
 from comprope.drive.stability_margins import margins, open_loop, unstable_positions
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
 
@@ -17,7 +17,7 @@ POSITIONS = [0.0, 10.0, 25.0, 50.0]
 
 @pytest.mark.parametrize("position", POSITIONS)
 def test_moving_mass_is_the_same_everywhere(position: float) -> None:
-    parts = lumps(DRIVE, position)
+    parts = lumped_hoist(DRIVE, position)
     assert parts.sheave + parts.car + parts.counterweight == pytest.approx(moving_mass(DRIVE), rel=1e-14)
     rope = DRIVE.plant.rope_mass_per_length * (2 * DRIVE.plant.headroom + DRIVE.shaft.height)
     bodies = DRIVE.plant.car_mass + DRIVE.plant.counterweight_mass + DRIVE.plant.machine_inertia / DRIVE.plant.sheave_radius**2
@@ -68,42 +68,42 @@ def test_speed_control_places_the_poles_on_rigid_ropes() -> None:
 
 
 def test_the_law_is_the_sampled_speed_control() -> None:
-    law, errors, integral, forces = design(DRIVE), [0.1, -0.02, 0.05, 0.0, 0.3], 0.0, []
+    controller, errors, integral, forces = design_servo(DRIVE), [0.1, -0.02, 0.05, 0.0, 0.3], 0.0, []
     for error in errors:
-        force, integral = law.force(integral, TrajectoryPoint(0.0, error), 0.0, 0.0, (-1e9, 1e9))
+        force, integral = controller.force(integral, TrajectoryPoint(0.0, error), 0.0, 0.0, (-1e9, 1e9))
         forces.append(force)
     response = control.forced_response(sampled_speed_control(DRIVE), inputs=errors)
     assert forces == pytest.approx(list(response.outputs), rel=1e-12)
 
 
 def test_the_integral_waits_while_the_motor_is_at_its_limit() -> None:
-    law = design(DRIVE)
-    assert law.force(0.5, TrajectoryPoint(0.0, 1.0), 0.0, 0.0, (-10.0, 10.0)) == (10.0, 0.5)
-    _, integral = law.force(0.5, TrajectoryPoint(0.0, -1.0), 0.0, 0.0, (-1e9, 1e9))
+    controller = design_servo(DRIVE)
+    assert controller.force(0.5, TrajectoryPoint(0.0, 1.0), 0.0, 0.0, (-10.0, 10.0)) == (10.0, 0.5)
+    _, integral = controller.force(0.5, TrajectoryPoint(0.0, -1.0), 0.0, 0.0, (-1e9, 1e9))
     assert integral < 0.5
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_an_error_that_takes_the_motor_off_its_limit_is_integrated(sense: float) -> None:
     """Else the integral that holds the motor at its limit would stay where it is, and the car would run past its landing."""
-    law, error, wound_up = design(DRIVE), -0.01, 1e3
-    found = law.force(sense * wound_up, TrajectoryPoint(0.0, sense * error), 0.0, 0.0, (-10.0, 10.0))
-    assert found == (sense * 10.0, pytest.approx(sense * (wound_up + law.speed.into * error), rel=1e-15))
+    controller, error, wound_up = design_servo(DRIVE), -0.01, 1e3
+    found = controller.force(sense * wound_up, TrajectoryPoint(0.0, sense * error), 0.0, 0.0, (-10.0, 10.0))
+    assert found == (sense * 10.0, pytest.approx(sense * (wound_up + controller.speed.input_gain * error), rel=1e-15))
 
 
 @pytest.mark.parametrize("position", POSITIONS)
 def test_margins_are_ample(position: float) -> None:
     found = margins(DRIVE, position)
-    assert found.gain_rise > 4.0
-    assert found.gain_fall > 4.0
-    assert found.phase > 45.0
-    assert found.distance > 0.8
+    assert found.upper_gain_margin > 4.0
+    assert found.lower_gain_margin > 4.0
+    assert found.phase_margin > 45.0
+    assert found.modulus_margin > 0.8
 
 
 @pytest.mark.parametrize("position", [0.0, 25.0])
 def test_gain_margins_are_where_stability_ends(position: float) -> None:
     found, loop = margins(DRIVE, position), open_loop(DRIVE, position)
-    for factor, stable in ((found.gain_rise, 1.01), (1.0 / found.gain_fall, 0.99)):
+    for factor, stable in ((found.upper_gain_margin, 1.01), (1.0 / found.lower_gain_margin, 0.99)):
         inside, outside = factor / stable, factor * stable
         assert max(abs(control.feedback(inside * loop, 1).poles())) < 1.0
         assert max(abs(control.feedback(outside * loop, 1).poles())) > 1.0
@@ -111,7 +111,7 @@ def test_gain_margins_are_where_stability_ends(position: float) -> None:
 
 def test_phase_margin_is_the_delay_that_stability_bears() -> None:
     found, period = margins(DRIVE, 25.0), DRIVE.servo.sample_period
-    bears = np.deg2rad(found.phase) / found.crossover / period  # samples
+    bears = np.deg2rad(found.phase_margin) / found.crossover_frequency / period  # samples
     z = control.tf([1.0], [1.0, 0.0], period)
     loop = open_loop(DRIVE, 25.0)
     assert bears > 2.0
@@ -124,19 +124,19 @@ def test_wild_gains_are_found_out() -> None:
 
 
 def test_cells_step_like_python_control_and_divide_exactly() -> None:
-    grid = cells(DRIVE)
-    cell = grid.at(0.0)
+    plant = scheduled_plant(DRIVE)
+    cell = plant.operating_point(0.0)
     sampled = control.sample_system(state_space(DRIVE, 0.0), DRIVE.servo.sample_period, method="zoh")
     full = np.concatenate([np.random.default_rng(1).normal(size=8), [100.0, 20.0, -30.0]])
     whole, parts = full.copy(), full.copy()
-    grid.period(cell, whole)
+    plant.advance_period(cell, whole)
     for share in (0.3, 0.0001, 0.6999):
-        grid.part(cell, parts, share * DRIVE.servo.sample_period)
+        plant.advance(cell, parts, share * DRIVE.servo.sample_period)
     assert whole[:8] == pytest.approx(sampled.A @ full[:8] + sampled.B @ full[8:], rel=1e-9)
     assert parts == pytest.approx(whole, rel=1e-9)
 
 
 def test_neighbouring_cells_differ_little() -> None:
     tall = Drive(shaft=Shaft(height=500.0))
-    stiffness = np.array([rate[T_C, V_C] for rate in cells(tall).rates])
+    stiffness = np.array([rate[T_C, V_C] for rate in scheduled_plant(tall).rate_matrices])
     assert np.max(np.abs(np.diff(np.log(np.abs(stiffness))))) < 0.0101

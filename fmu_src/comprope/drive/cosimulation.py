@@ -17,7 +17,7 @@ from ..fmi.model_interface import ModelInterface, Variable, parameters_of
 from ..validation_messages import problems
 from .hoist_dynamics import holding_force
 from .parameters import Drive
-from .simulator import DriveSimulator, compensation_pulls, input_problems
+from .simulator import DriveSimulator, compensation_forces, input_problems
 from .stability_margins import unstable_positions
 from .trajectory.reference_trajectory import first_trajectory
 
@@ -64,7 +64,7 @@ def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time:
     Raises `InputError` with one sentence for each problem: unknown, impossible or inconsistent values, a torque limit too
     low to hold the car, unstable servo gains.
     """
-    drive = drive_of(parameters)
+    drive = drive_from_parameters(parameters)
     found = input_problems(drive, inputs) + _start_problems(drive, start_time)
     found = found or _torque_problems(drive, inputs) + _gain_problems(drive)
     if found:
@@ -72,7 +72,7 @@ def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time:
     return DriveSimulator(drive, inputs, start_time)
 
 
-def drive_of(parameters: Mapping[str, Any]) -> Drive:
+def drive_from_parameters(parameters: Mapping[str, Any]) -> Drive:
     """The drive from parameters such as `profile.speed`; raises `InputError` with all problems."""
     tables: dict[str, Any] = {}
     for name, value in parameters.items():
@@ -92,7 +92,7 @@ def _start_problems(drive: Drive, start_time: float) -> list[str]:
 
 
 def _torque_problems(drive: Drive, inputs: Mapping[str, Any]) -> list[str]:
-    force = holding_force(drive, drive.trip.start_position, *compensation_pulls(drive, inputs))
+    force = holding_force(drive, drive.trip.start_position, *compensation_forces(drive, inputs))
     needed, limit = abs(force) * drive.plant.sheave_radius, drive.servo.torque_limit
     if limit > needed:
         return []
@@ -118,9 +118,9 @@ def _parameters(drive: Drive) -> tuple[Variable, ...]:
 
 
 def _inputs(drive: Drive) -> tuple[Variable, ...]:
-    pull = "tension of one compensation rope at its {} end, pulling down; its initial value belongs to the equilibrium"
+    help_text = "tension of one compensation rope at its {} end, pulling down; its initial value belongs to the equilibrium"
     tensions = (
-        Variable(f"{end}_end_tension", "real", "input", pull.format(end), "N", 0.0, -1e6, 1e6, 1000.0)
+        Variable(f"{end}_end_tension", "real", "input", help_text.format(end), "N", 0.0, -1e6, 1e6, 1000.0)
         for end in ("car", "counterweight")
     )
     call = "height to which a change of this input calls the car when it is at rest; the initial value is not a call"

@@ -36,7 +36,7 @@ S, X_C, X_W, V_S, V_C, V_W, T_C, T_W = range(8)
 
 
 @dataclass(frozen=True)
-class Lumps:
+class LumpedHoist:
     """Rope lengths [m] on both sides and moving masses [kg] with the car at one position."""
 
     car_rope: float
@@ -46,12 +46,12 @@ class Lumps:
     counterweight: float
 
 
-def lumps(drive: Drive, position: float) -> Lumps:
+def lumped_hoist(drive: Drive, position: float) -> LumpedHoist:
     """Rope lengths and lumped masses for a car position [m above the bottom landing]."""
     plant, height = drive.plant, drive.shaft.height
     car_rope, counterweight_rope = plant.headroom + height - position, plant.headroom + position
     half = 0.5 * plant.rope_mass_per_length
-    return Lumps(
+    return LumpedHoist(
         car_rope,
         counterweight_rope,
         plant.machine_inertia / plant.sheave_radius**2 + half * (car_rope + counterweight_rope),
@@ -62,20 +62,20 @@ def lumps(drive: Drive, position: float) -> Lumps:
 
 def moving_mass(drive: Drive) -> float:
     """Total moving mass [kg], with the inertia of the machine as mass at the rim; independent of the car position."""
-    parts = lumps(drive, 0.0)
+    parts = lumped_hoist(drive, 0.0)
     return parts.sheave + parts.car + parts.counterweight
 
 
 def holding_force(drive: Drive, position: float, car_pull: float, counterweight_pull: float) -> float:
     """Force at the rim [N] that holds the car at `position` [m]; the pulls [N] are those of all compensation ropes."""
-    parts, plant, gravity = lumps(drive, position), drive.plant, drive.shaft.gravity
+    parts, plant, gravity = lumped_hoist(drive, position), drive.plant, drive.shaft.gravity
     ropes = plant.rope_mass_per_length * (parts.car_rope - parts.counterweight_rope)
     return gravity * (plant.car_mass - plant.counterweight_mass + ropes) + car_pull - counterweight_pull
 
 
 def state_space(drive: Drive, position: float) -> control.StateSpace:
     """State-space model of the hoist linearised about a car position [m]: inputs f, F_c, F_w [N], outputs all states."""
-    parts = lumps(drive, position)
+    parts = lumped_hoist(drive, position)
     weight = drive.plant.rope_mass_per_length * drive.shaft.gravity
     a, b = np.zeros((8, 8)), np.zeros((8, 3))
     a[S, V_S] = a[X_C, V_C] = a[X_W, V_W] = 1.0

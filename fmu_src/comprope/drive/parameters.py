@@ -10,9 +10,9 @@ from pydantic import model_validator
 
 from ..quantities import Component, quantity
 
-SHORTEST = 0.01  # s, shortest moving average; below it rounding errors dominate
-PARTS = 20  # intervals of the travel time, for free-form trips
-STOPS = 1e-9  # accepted final speed of a free-form trip, relative to largest acceleration times travel time
+SHORTEST_SMOOTHING = 0.01  # s, shortest moving average; below it rounding errors dominate
+INTERVALS = 20  # intervals of the travel time, for free-form trips
+FINAL_SPEED_TOLERANCE = 1e-9  # accepted final speed of a free-form trip, relative to largest acceleration times travel time
 
 
 class Profile(Component):
@@ -24,14 +24,14 @@ class Profile(Component):
     smoothing: float = quantity("s", "moving average over the trip, for a continuous jerk; 0: none", 0.0, 20.0, default=0.0)
 
     @model_validator(mode="after")
-    def _smooths_for_a_while(self) -> "Profile":
-        if 0.0 < self.smoothing < SHORTEST:
-            raise ValueError(f"smoothing = {self.smoothing} s: accepted is 0 (none) or {SHORTEST} to 20 s")
+    def _smoothing_is_not_too_short(self) -> "Profile":
+        if 0.0 < self.smoothing < SHORTEST_SMOOTHING:
+            raise ValueError(f"smoothing = {self.smoothing} s: accepted is 0 (none) or {SHORTEST_SMOOTHING} to 20 s")
         return self
 
 
-def _share(k: int) -> float:
-    help = f"acceleration after {k}/{PARTS} of the travel time, relative to the largest; all 0: jerk-limited trips"
+def _acceleration_share(k: int) -> float:
+    help = f"acceleration after {k}/{INTERVALS} of the travel time, relative to the largest; all 0: jerk-limited trips"
     share: float = quantity("1", help, -1.0, 1.0, default=0.0)
     return share
 
@@ -39,25 +39,25 @@ def _share(k: int) -> float:
 class Curve(Component):
     """Free-form trips: accelerations at twentieths of the travel time, linear in between, 0 at both ends."""
 
-    a1: float = _share(1)
-    a2: float = _share(2)
-    a3: float = _share(3)
-    a4: float = _share(4)
-    a5: float = _share(5)
-    a6: float = _share(6)
-    a7: float = _share(7)
-    a8: float = _share(8)
-    a9: float = _share(9)
-    a10: float = _share(10)
-    a11: float = _share(11)
-    a12: float = _share(12)
-    a13: float = _share(13)
-    a14: float = _share(14)
-    a15: float = _share(15)
-    a16: float = _share(16)
-    a17: float = _share(17)
-    a18: float = _share(18)
-    a19: float = _share(19)
+    a1: float = _acceleration_share(1)
+    a2: float = _acceleration_share(2)
+    a3: float = _acceleration_share(3)
+    a4: float = _acceleration_share(4)
+    a5: float = _acceleration_share(5)
+    a6: float = _acceleration_share(6)
+    a7: float = _acceleration_share(7)
+    a8: float = _acceleration_share(8)
+    a9: float = _acceleration_share(9)
+    a10: float = _acceleration_share(10)
+    a11: float = _acceleration_share(11)
+    a12: float = _acceleration_share(12)
+    a13: float = _acceleration_share(13)
+    a14: float = _acceleration_share(14)
+    a15: float = _acceleration_share(15)
+    a16: float = _acceleration_share(16)
+    a17: float = _acceleration_share(17)
+    a18: float = _acceleration_share(18)
+    a19: float = _acceleration_share(19)
 
     @property
     def used(self) -> bool:
@@ -65,12 +65,12 @@ class Curve(Component):
         return any(getattr(self, name) for name in type(self).model_fields)
 
     @model_validator(mode="after")
-    def _goes_and_stops(self) -> "Curve":
+    def _moves_forward_and_stops(self) -> "Curve":
         shares = [getattr(self, name) for name in type(self).model_fields]
         speeds = list(accumulate(shares))
-        if self.used and abs(speeds[-1]) > STOPS * PARTS:
-            raise ValueError(f"the sum of a1 to a{PARTS - 1} is {speeds[-1]:.6g}: accepted is 0, so that the car stops")
-        if self.used and (min(speeds) < -STOPS * PARTS or max(speeds) <= 0.0):
+        if self.used and abs(speeds[-1]) > FINAL_SPEED_TOLERANCE * INTERVALS:
+            raise ValueError(f"the sum of a1 to a{INTERVALS - 1} is {speeds[-1]:.6g}: accepted is 0, so that the car stops")
+        if self.used and (min(speeds) < -FINAL_SPEED_TOLERANCE * INTERVALS or max(speeds) <= 0.0):
             raise ValueError("a1, a1 + a2 and so on: no sum below 0 is accepted, so that the car never reverses")
         return self
 
@@ -85,7 +85,7 @@ class Shaper(Component):
     tolerance: float = quantity("1", "residual vibration of a shaper of three impulses (EI), relative", 0.0, 0.5, default=0.0)
 
     @model_validator(mode="after")
-    def _counts(self) -> "Shaper":
+    def _impulses_are_whole(self) -> "Shaper":
         if self.impulses not in (1.0, 2.0, 3.0):
             raise ValueError(f"impulses = {self.impulses}: accepted is 1, 2 or 3")
         return self
@@ -150,12 +150,12 @@ class Drive(Component):
     servo: Servo = Servo()
 
     @property
-    def standing(self) -> "Drive":
+    def without_trips(self) -> "Drive":
         """Shaft, plant and servo only: the parameters that the closed loop depends on."""
         return Drive(shaft=self.shaft, plant=self.plant, servo=self.servo, trip=FirstTrip(destination=0.0))
 
     @model_validator(mode="after")
-    def _stops_in_the_shaft(self) -> "Drive":
+    def _stops_inside_the_shaft(self) -> "Drive":
         stops = {"trip.start_position": self.trip.start_position, "trip.destination": self.trip.destination}
         outside = [f"{name} = {value} m" for name, value in stops.items() if value > self.shaft.height]
         if outside:

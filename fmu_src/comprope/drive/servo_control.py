@@ -19,37 +19,42 @@ from .trajectory.s_curve import TrajectoryPoint
 
 
 @dataclass(frozen=True)
-class SpeedControl:
-    """Discrete proportional-integral controller: force = gain e + out z, next z = z + into e; e is the speed error [m/s]."""
+class SpeedController:
+    """Discrete proportional-integral controller of the speed error e [m/s].
+
+    force [N] = gain e + output_gain z, next z = z + input_gain e
+    """
 
     gain: float
-    into: float
-    out: float
+    input_gain: float
+    output_gain: float
 
 
 @dataclass(frozen=True)
-class Law:
+class ServoController:
     """The discrete controller; forces at the rim [N]."""
 
-    speed: SpeedControl
+    speed: SpeedController
     position_gain: float
     velocity_feedforward: float
     acceleration_feedforward: float  # N per m/s2
 
     def force(
-        self, integral: float, reference: TrajectoryPoint, way: float, velocity: float, limits: tuple[float, float]
+        self, integral: float, reference: TrajectoryPoint, position: float, velocity: float, limits: tuple[float, float]
     ) -> tuple[float, float]:
-        """The motor's force [N] and the next integral, from the encoder's `way` [m] and `velocity` [m/s].
+        """The motor's force [N] and the next integral, from the encoder's `position` [m] and `velocity` [m/s].
 
         The force is limited to `limits`; while it is limited, an error of the same sign is not integrated (anti-windup).
         """
-        wanted = self.position_gain * (reference.position - way) + self.velocity_feedforward * reference.velocity
+        wanted = self.position_gain * (reference.position - position) + self.velocity_feedforward * reference.velocity
         error = wanted - velocity
-        force = self.speed.gain * error + self.speed.out * integral + self.acceleration_feedforward * reference.acceleration
+        force = (
+            self.speed.gain * error + self.speed.output_gain * integral + self.acceleration_feedforward * reference.acceleration
+        )
         limited = min(max(force, limits[0]), limits[1])
         if (force - limited) * error > 0.0:
             return limited, integral
-        return limited, integral + self.speed.into * error
+        return limited, integral + self.speed.input_gain * error
 
 
 def continuous_speed_control(drive: Drive) -> control.StateSpace:
@@ -64,11 +69,11 @@ def sampled_speed_control(drive: Drive) -> control.StateSpace:
     return control.sample_system(continuous_speed_control(drive), drive.servo.sample_period, method="tustin")
 
 
-def design(drive: Drive) -> Law:
+def design_servo(drive: Drive) -> ServoController:
     """Design of the discrete controller of a drive."""
     pi, servo = sampled_speed_control(drive), drive.servo
-    return Law(
-        SpeedControl(pi.D.item(), pi.B.item(), pi.C.item()),
+    return ServoController(
+        SpeedController(pi.D.item(), pi.B.item(), pi.C.item()),
         servo.position_bandwidth,
         servo.velocity_feedforward,
         servo.acceleration_feedforward * moving_mass(drive),

@@ -13,14 +13,14 @@ import numpy as np
 from ..errors import InputError, SimulationError
 from .hoist_dynamics import V_C, V_S, V_W, X_C, X_W, S, holding_force
 from .parameters import Drive
-from .scheduled_plant import cells
-from .servo_control import design
-from .state import Memory
+from .scheduled_plant import scheduled_plant
+from .servo_control import design_servo
+from .state import DriveState
 from .trajectory.reference_trajectory import reference_trajectory
 from .trajectory.s_curve import TrajectoryPoint, plan_s_curve
 
 TENSIONS = ("car_end_tension", "counterweight_end_tension")
-_FORCE, _PULLS = 8, slice(9, 11)  # indices of the constant inputs in the full vector
+_FORCE, _COMPENSATION = 8, slice(9, 11)  # indices of the constant inputs in the vector of states and inputs
 _SAME_TIME = 1e-6  # times closer than this fraction of a sample period are equal: importers accumulate steps
 
 
@@ -29,13 +29,13 @@ class DriveSimulator:
 
     def __init__(self, drive: Drive, inputs: Mapping[str, Any], start_time: float) -> None:
         """Equilibrium at `start_time` [s], the motor holding car and counterweight against the tensions in `inputs`."""
-        self._drive, self._start, self._home = drive, start_time, drive.trip.start_position
-        self._law, self._cells = design(drive), cells(drive)
-        trip = plan_s_curve(drive.profile, self._home, drive.trip.destination, drive.trip.start_time)
-        pulls, heard = compensation_pulls(drive, inputs), inputs["destination"]
-        self._memory = Memory(0, self._cells.at(self._home), 0.0, 0.0, heard, pulls, trip, np.zeros(11))
-        self._course = reference_trajectory(drive, trip)
-        self._hold()
+        self._drive, self._start_time, self._start_position = drive, start_time, drive.trip.start_position
+        self._controller, self._plant = design_servo(drive), scheduled_plant(drive)
+        first = plan_s_curve(drive.profile, self._start_position, drive.trip.destination, drive.trip.start_time)
+        point, forces = self._plant.operating_point(self._start_position), compensation_forces(drive, inputs)
+        self._state = DriveState(0, point, 0.0, 0.0, inputs["destination"], forces, first, np.zeros(11))
+        self._trajectory = reference_trajectory(drive, first)
+        self._set_force_limits()
 
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
         """Advance from `time` to `time + dt` [s] with inputs held.
@@ -46,81 +46,81 @@ class DriveSimulator:
         found = input_problems(self._drive, inputs)
         if found:
             raise InputError("; ".join(found))
-        memory, period = self._memory, self._drive.servo.sample_period
-        pulls = compensation_pulls(self._drive, inputs)
-        memory.full[_PULLS] = pulls[0] - memory.pulls[0], pulls[1] - memory.pulls[1]
-        end, same = time + dt - self._start, _SAME_TIME * period
-        while end - (memory.periods * period + memory.elapsed) > same:
-            if memory.elapsed == 0.0:
-                self._sample(inputs["destination"])
-            self._move(end - memory.periods * period, same)
+        state, period = self._state, self._drive.servo.sample_period
+        forces = compensation_forces(self._drive, inputs)
+        state.vector[_COMPENSATION] = forces[0] - state.rest_forces[0], forces[1] - state.rest_forces[1]
+        end, same = time + dt - self._start_time, _SAME_TIME * period
+        while end - (state.periods * period + state.elapsed) > same:
+            if state.elapsed == 0.0:
+                self._run_controller(inputs["destination"])
+            self._advance_plant(end - state.periods * period, same)
 
     def outputs(self) -> dict[str, Any]:
         """All outputs by name at the current time."""
-        memory, full, time = self._memory, self._memory.full, self._now()
-        reference, rates = self._course.at(time), self._cells.rates[memory.cell] @ full
+        state, vector, time = self._state, self._state.vector, self._now()
+        reference, rates = self._trajectory.at(time), self._plant.rate_matrices[state.operating_point] @ vector
         return {
-            "car_position": self._home + float(full[X_C]),
-            "car_velocity": float(full[V_C]),
+            "car_position": self._start_position + float(vector[X_C]),
+            "car_velocity": float(vector[V_C]),
             "car_acceleration": float(rates[V_C]),
-            "counterweight_position": self._drive.shaft.height - self._home + float(full[X_W]),
-            "counterweight_velocity": float(full[V_W]),
+            "counterweight_position": self._drive.shaft.height - self._start_position + float(vector[X_W]),
+            "counterweight_velocity": float(vector[V_W]),
             "counterweight_acceleration": float(rates[V_W]),
-            "encoder_position": self._home + float(full[S]),
-            "motor_torque": self._drive.plant.sheave_radius * (self._holding + float(full[_FORCE])),
+            "encoder_position": self._start_position + float(vector[S]),
+            "motor_torque": self._drive.plant.sheave_radius * (self._holding_force + float(vector[_FORCE])),
             "reference_position": reference.position,
             "reference_velocity": reference.velocity,
             "reference_acceleration": reference.acceleration,
-            "moving": self._course.start_time <= time < self._course.end_time,
-            "trip_finished": time >= self._course.end_time,
+            "moving": self._trajectory.start_time <= time < self._trajectory.end_time,
+            "trip_finished": time >= self._trajectory.end_time,
         }
 
     def get_state(self) -> bytes:
         """The complete state, for a bitwise equal restart in any process."""
-        return self._memory.pack()
+        return self._state.to_bytes()
 
     def set_state(self, state: bytes) -> None:
         """Restore a state of `get_state` of a simulator with the same parameters and start time."""
-        self._memory = Memory.unpack(state)
-        self._course = reference_trajectory(self._drive, self._memory.trip)
-        self._hold()
+        self._state = DriveState.from_bytes(state)
+        self._trajectory = reference_trajectory(self._drive, self._state.s_curve)
+        self._set_force_limits()
 
     def _now(self) -> float:
-        memory = self._memory
-        return self._start + (memory.periods * self._drive.servo.sample_period + memory.elapsed)
+        state = self._state
+        return self._start_time + (state.periods * self._drive.servo.sample_period + state.elapsed)
 
-    def _hold(self) -> None:
+    def _set_force_limits(self) -> None:
         """Compute the force at the rim [N] that holds the hoist at rest, and the remaining range up to the torque limit."""
-        self._holding = holding_force(self._drive, self._home, *self._memory.pulls)
+        self._holding_force = holding_force(self._drive, self._start_position, *self._state.rest_forces)
         limit = self._drive.servo.torque_limit / self._drive.plant.sheave_radius
-        self._limits = -limit - self._holding, limit - self._holding
+        self._limits = -limit - self._holding_force, limit - self._holding_force
 
-    def _sample(self, destination: float) -> None:
+    def _run_controller(self, destination: float) -> None:
         """One sample of the controller: accept a call, read the encoder, set the torque."""
-        memory, full, time = self._memory, self._memory.full, self._now()
-        if time >= self._course.end_time and destination != memory.heard:
-            memory.trip = plan_s_curve(self._drive.profile, memory.trip.destination, destination, time)
-            memory.heard = destination
-            self._course = reference_trajectory(self._drive, memory.trip)
-        way, velocity = float(full[S]), float(full[V_S])
-        self._check_in_shaft(self._home + way, time)
-        memory.cell = self._cells.at(self._home + way)
-        at = self._course.at(time)
-        reference = TrajectoryPoint(at.position - self._home, at.velocity, at.acceleration)
-        full[_FORCE], memory.integral = self._law.force(memory.integral, reference, way, velocity, self._limits)
+        state, vector, time = self._state, self._state.vector, self._now()
+        if time >= self._trajectory.end_time and destination != state.called:
+            state.s_curve = plan_s_curve(self._drive.profile, state.s_curve.destination, destination, time)
+            state.called = destination
+            self._trajectory = reference_trajectory(self._drive, state.s_curve)
+        position, velocity = float(vector[S]), float(vector[V_S])
+        self._require_in_shaft(self._start_position + position, time)
+        state.operating_point = self._plant.operating_point(self._start_position + position)
+        at = self._trajectory.at(time)
+        reference = TrajectoryPoint(at.position - self._start_position, at.velocity, at.acceleration)
+        vector[_FORCE], state.integral = self._controller.force(state.integral, reference, position, velocity, self._limits)
 
-    def _move(self, until: float, same: float) -> None:
+    def _advance_plant(self, until: float, same: float) -> None:
         """Integrate the hoist to `until` [s] after the last sample or to the next sample, whichever is first."""
-        memory, period = self._memory, self._drive.servo.sample_period
+        state, period = self._state, self._drive.servo.sample_period
         whole = until > period - same
-        if whole and memory.elapsed == 0.0:
-            self._cells.period(memory.cell, memory.full)
+        if whole and state.elapsed == 0.0:
+            self._plant.advance_period(state.operating_point, state.vector)
         else:
-            self._cells.part(memory.cell, memory.full, (period if whole else until) - memory.elapsed)
-        memory.periods += whole
-        memory.elapsed = 0.0 if whole else until
+            self._plant.advance(state.operating_point, state.vector, (period if whole else until) - state.elapsed)
+        state.periods += whole
+        state.elapsed = 0.0 if whole else until
 
-    def _check_in_shaft(self, position: float, time: float) -> None:
+    def _require_in_shaft(self, position: float, time: float) -> None:
         height, spare = self._drive.shaft.height, 0.5 * self._drive.plant.headroom
         if not -spare <= position <= height + spare:
             raise SimulationError(
@@ -129,8 +129,8 @@ class DriveSimulator:
             )
 
 
-def compensation_pulls(drive: Drive, inputs: Mapping[str, Any]) -> tuple[float, float]:
-    """Pulls of all compensation ropes on car and counterweight [N]."""
+def compensation_forces(drive: Drive, inputs: Mapping[str, Any]) -> tuple[float, float]:
+    """Forces of all compensation ropes on car and counterweight [N], down positive."""
     car, counterweight = (drive.rope.count * inputs[name] for name in TENSIONS)
     return car, counterweight
 

@@ -16,16 +16,16 @@ _FREQUENCIES = 4000  # from 0.01 rad/s to half the sampling rate: 0.3 % apart, f
 class Margins:
     """Margins of the loop with the car at one position.
 
-    The loop's gain may rise by the factor `gain_rise` or fall by the factor `gain_fall`, and its phase may lag by
-    `phase` [degrees] more at `crossover` [rad/s]. `distance` is the least distance of the loop from -1, 1 divided by
-    the peak of the sensitivity.
+    The loop's gain may rise by the factor `upper_gain_margin` or fall by the factor `lower_gain_margin`, and its phase may lag
+    by `phase_margin` [degrees] more at `crossover_frequency` [rad/s]. `modulus_margin` is the least distance of the loop's
+    Nyquist plot from -1, the reciprocal of the peak of the sensitivity.
     """
 
-    gain_rise: float
-    gain_fall: float
-    phase: float
-    crossover: float
-    distance: float
+    upper_gain_margin: float
+    lower_gain_margin: float
+    phase_margin: float
+    crossover_frequency: float
+    modulus_margin: float
 
 
 def open_loop(drive: Drive, position: float) -> control.StateSpace:

@@ -14,33 +14,33 @@ _MARK = b"drive 1\0"
 
 
 @dataclass
-class Memory:
+class DriveState:
     """The complete state of a drive.
 
-    `periods` sample periods have passed and `elapsed` [s] of the next one, during which the linearisation `cell` of the hoist
-    is used. `integral` [m/s] is that of the speed controller; `heard` [m] the last accepted destination; `pulls` [N] the pulls
-    of the compensation ropes on car and counterweight in the initial equilibrium; `full` (11,) the hoist's states followed by
-    its inputs.
+    `periods` sample periods have passed and `elapsed` [s] of the next one, during which the plant is that of
+    `operating_point`. `integral` [m/s] is that of the speed controller; `called` [m] the last accepted destination, and
+    `s_curve` the trip to it before smoothing and shaping; `rest_forces` [N] the forces of the compensation ropes on car and
+    counterweight in the initial equilibrium; `vector` (11,) the hoist's states followed by its inputs.
     """
 
     periods: int
-    cell: int
+    operating_point: int
     elapsed: float
     integral: float
-    heard: float
-    pulls: tuple[float, float]
-    trip: SCurve
-    full: np.ndarray
+    called: float
+    rest_forces: tuple[float, float]
+    s_curve: SCurve
+    vector: np.ndarray
 
-    def pack(self) -> bytes:
+    def to_bytes(self) -> bytes:
         """The state as bytes."""
-        numbers = (self.elapsed, self.integral, self.heard, *self.pulls, *astuple(self.trip), *self.full)
-        return _LAYOUT.pack(_MARK, self.periods, self.cell, *numbers)
+        numbers = (self.elapsed, self.integral, self.called, *self.rest_forces, *astuple(self.s_curve), *self.vector)
+        return _LAYOUT.pack(_MARK, self.periods, self.operating_point, *numbers)
 
     @classmethod
-    def unpack(cls, state: bytes) -> "Memory":
-        """The state from bytes of `pack`; raises `InputError` for any others."""
+    def from_bytes(cls, state: bytes) -> "DriveState":
+        """The state from bytes of `to_bytes`; raises `InputError` for any others."""
         if len(state) != _LAYOUT.size or not state.startswith(_MARK):
             raise InputError(f"state of {len(state)} bytes: only a state saved by this version of the drive is accepted")
-        _, periods, cell, elapsed, integral, heard, car, counterweight, *rest = _LAYOUT.unpack(state)
-        return cls(periods, cell, elapsed, integral, heard, (car, counterweight), SCurve(*rest[:7]), np.array(rest[7:]))
+        _, periods, point, elapsed, integral, called, car, counterweight, *rest = _LAYOUT.unpack(state)
+        return cls(periods, point, elapsed, integral, called, (car, counterweight), SCurve(*rest[:7]), np.array(rest[7:]))

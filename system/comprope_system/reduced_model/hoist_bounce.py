@@ -16,7 +16,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.drive.hoist_dynamics import lumps
+from comprope.drive.hoist_dynamics import lumped_hoist
 from comprope.drive.parameters import Drive
 from comprope.drive.stability_margins import open_loop
 
@@ -51,7 +51,7 @@ class HoistBounce:
 
 def hoist_bounce(drive: Drive) -> HoistBounce:
     """Oscillators of car and counterweight for a drive; cached, since independent of the trip."""
-    return _hoist(drive.standing)
+    return _hoist(drive.without_trips)
 
 
 @lru_cache(maxsize=8)
@@ -63,7 +63,7 @@ def _hoist(drive: Drive) -> HoistBounce:
 
 def _bounces(drive: Drive, height: float) -> Floats:
     """Frequencies and damping ratios (2, 2) of car and counterweight with the car at a height."""
-    parts, stiffness = lumps(drive, height), drive.plant.rope_stiffness
+    parts, stiffness = lumped_hoist(drive, height), drive.plant.rope_stiffness
     own = np.sqrt(stiffness / np.array([
         parts.car_rope * parts.car, parts.counterweight_rope * parts.counterweight
     ]))  # fmt: skip

@@ -6,7 +6,7 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.drive.parameters import PARTS
+from comprope.drive.parameters import INTERVALS
 from comprope.drive.trajectory.free_curve import FreeCurve
 from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 from comprope.drive.trajectory.s_curve import SCurve
@@ -43,12 +43,12 @@ def sample_motion(trajectory: ReferenceTrajectory, until: float, dt: float) -> S
 
 def _smoothed(trajectory: ReferenceTrajectory, time: Floats) -> Floats:
     """Distance, speed and acceleration (3, n) of the trip after the moving average."""
-    values = _curve if isinstance(trajectory.trip, FreeCurve) else _trip
-    travel_integral, travel, speed, acceleration = values(trajectory.trip, time)  # type: ignore[arg-type]
+    values = _curve if isinstance(trajectory.unshaped, FreeCurve) else _trip
+    travel_integral, travel, speed, acceleration = values(trajectory.unshaped, time)  # type: ignore[arg-type]
     S = trajectory.smoothing
     if S == 0.0:
         return np.array([travel, speed, acceleration])
-    before, travel0, speed0, _ = values(trajectory.trip, time - S)  # type: ignore[arg-type]
+    before, travel0, speed0, _ = values(trajectory.unshaped, time - S)  # type: ignore[arg-type]
     return np.array([travel_integral - before, travel - travel0, speed - speed0]) / S
 
 
@@ -76,8 +76,8 @@ def _begun(trip: SCurve, s: Floats, order: int) -> Floats:
 
 def _curve(trip: FreeCurve, time: Floats) -> Floats:
     """The same for a free-form trip."""
-    dt, elapsed = trip.duration / PARTS, np.clip(time - trip.start_time, 0.0, trip.duration)
-    k = np.minimum((elapsed / dt).astype(int), PARTS - 1)
+    dt, elapsed = trip.duration / INTERVALS, np.clip(time - trip.start_time, 0.0, trip.duration)
+    k = np.minimum((elapsed / dt).astype(int), INTERVALS - 1)
     t, (a, v, x, travel_integral) = elapsed - k * dt, (np.array(one) for one in trip.knots)
     j, after_end = (a[k + 1] - a[k]) / dt, np.maximum(time - trip.end_time, 0.0) * (trip.destination - trip.origin)
     a, v, x, travel_integral = a[k], v[k], x[k], travel_integral[k]

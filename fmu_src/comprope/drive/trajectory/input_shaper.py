@@ -16,24 +16,24 @@ from math import exp, pi, sqrt
 
 from ..parameters import Shaper
 
-Impulses = tuple[tuple[float, float], ...]  # delays [s] and shares
-NONE: Impulses = ((0.0, 1.0),)
+Impulses = tuple[tuple[float, float], ...]  # delays [s] and weights
+NO_SHAPING: Impulses = ((0.0, 1.0),)
 
 
-def impulses(shaper: Shaper, way: tuple[float, float], height: float) -> Impulses:
+def impulses(shaper: Shaper, stops: tuple[float, float], height: float) -> Impulses:
     """Delays [s] and weights of the shaper for a trip between two heights [m] in a shaft of `height` [m]."""
     count = int(shaper.impulses)
     root = sqrt(1.0 - shaper.damping**2)
-    fall, half = exp(-shaper.damping * pi / root), 0.5 * period_at(shaper, way, height) / root
+    fall, half = exp(-shaper.damping * pi / root), 0.5 * design_period(shaper, stops, height) / root
     V = shaper.tolerance
     weights = {1: (1.0,), 2: (1.0, fall), 3: (1.0 + V, 2.0 * (1.0 - V) * fall, (1.0 + V) * fall**2)}[count]
     return tuple((k * half, weight / sum(weights)) for k, weight in enumerate(weights))
 
 
-def period_at(shaper: Shaper, way: tuple[float, float], height: float) -> float:
+def design_period(shaper: Shaper, stops: tuple[float, float], height: float) -> float:
     """The undamped design period [s] for a trip: linear in the distance of its midpoint from the middle of the shaft.
 
     The longest period is that of the longer side, hence symmetric about the middle.
     """
-    share = abs(way[0] + way[1] - height) / height
+    share = abs(stops[0] + stops[1] - height) / height
     return shaper.period_middle + share * (shaper.period_landing - shaper.period_middle)

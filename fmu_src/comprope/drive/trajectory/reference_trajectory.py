@@ -10,43 +10,43 @@ Neither a moving average nor an input shaper exceeds a limit that the trip meets
 from dataclasses import dataclass
 
 from ..parameters import Drive
-from .free_curve import FreeCurve, curved
-from .input_shaper import NONE, Impulses, impulses
+from .free_curve import FreeCurve, plan_free_curve
+from .input_shaper import NO_SHAPING, Impulses, impulses
 from .s_curve import SCurve, TrajectoryPoint, plan_s_curve
 
 
 @dataclass(frozen=True)
 class ReferenceTrajectory:
-    """A trip passed through a moving average of `smoothing` [s] and through a shaper's `impulses` (delay [s], share)."""
+    """A trip passed through a moving average of `smoothing` [s] and through a shaper's `impulses` (delay [s], weight)."""
 
-    trip: SCurve | FreeCurve
+    unshaped: SCurve | FreeCurve
     smoothing: float = 0.0
-    impulses: Impulses = NONE
+    impulses: Impulses = NO_SHAPING
 
     @property
     def start_time(self) -> float:
         """Start of the motion of the reference [s]."""
-        return self.trip.start_time
+        return self.unshaped.start_time
 
     @property
     def origin(self) -> float:
         """Start position [m]."""
-        return self.trip.origin
+        return self.unshaped.origin
 
     @property
     def destination(self) -> float:
         """Final position [m]."""
-        return self.trip.destination
+        return self.unshaped.destination
 
     @property
     def duration(self) -> float:
         """Time [s] from rest to rest: the trip's own, the average's and the shaper's."""
-        return self.trip.duration + self.smoothing + self.impulses[-1][0]
+        return self.unshaped.duration + self.smoothing + self.impulses[-1][0]
 
     @property
     def end_time(self) -> float:
         """When the reference is at rest at the destination [s]."""
-        return self.trip.start_time + self.duration
+        return self.unshaped.start_time + self.duration
 
     def at(self, time: float) -> TrajectoryPoint:
         """The reference at `time` [s]; at rest before the trip begins and after it ends."""
@@ -54,22 +54,22 @@ class ReferenceTrajectory:
             return TrajectoryPoint(self.destination)
         if len(self.impulses) == 1:
             return self._smoothed(time)
-        moved = [(share, self._smoothed(time - delay)) for delay, share in self.impulses]
+        delayed = [(weight, self._smoothed(time - delay)) for delay, weight in self.impulses]
         return TrajectoryPoint(
-            self.origin + sum(share * (one.position - self.origin) for share, one in moved),
-            sum(share * one.velocity for share, one in moved),
-            sum(share * one.acceleration for share, one in moved),
-            sum(share * one.jerk for share, one in moved),
+            self.origin + sum(weight * (one.position - self.origin) for weight, one in delayed),
+            sum(weight * one.velocity for weight, one in delayed),
+            sum(weight * one.acceleration for weight, one in delayed),
+            sum(weight * one.jerk for weight, one in delayed),
         )
 
     def _smoothed(self, time: float) -> TrajectoryPoint:
         S = self.smoothing
-        now = self.trip.at(time)
+        now = self.unshaped.at(time)
         if S == 0.0:
             return now
-        then = self.trip.at(time - S)
+        then = self.unshaped.at(time - S)
         return TrajectoryPoint(
-            self.origin + (self.trip.gone(time) - self.trip.gone(time - S)) / S,
+            self.origin + (self.unshaped.displacement_integral(time) - self.unshaped.displacement_integral(time - S)) / S,
             (now.position - then.position) / S,
             (now.velocity - then.velocity) / S,
             (now.acceleration - then.acceleration) / S,
@@ -77,16 +77,16 @@ class ReferenceTrajectory:
 
 
 def reference_trajectory(drive: Drive, trip: SCurve) -> ReferenceTrajectory:
-    """The course of a planned trip with the drive's curve, smoothing and shaper; a trip of no way has none of these."""
+    """The trajectory of a planned trip with the drive's curve, smoothing and shaper; none of these at zero distance."""
     origin, destination = trip.origin, trip.destination
     if origin == destination:
         return ReferenceTrajectory(trip)
-    chosen = curved(drive.curve, drive.profile, origin, destination, trip.start_time) if drive.curve.used else trip
+    chosen = plan_free_curve(drive.curve, drive.profile, origin, destination, trip.start_time) if drive.curve.used else trip
     return ReferenceTrajectory(chosen, drive.profile.smoothing, impulses(drive.shaper, (origin, destination), drive.shaft.height))
 
 
 def first_trajectory(drive: Drive) -> ReferenceTrajectory:
-    """The course of the drive's first trip."""
+    """The trajectory of the drive's first trip."""
     return reference_trajectory(
         drive, plan_s_curve(drive.profile, drive.trip.start_position, drive.trip.destination, drive.trip.start_time)
     )

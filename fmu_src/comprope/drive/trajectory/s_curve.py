@@ -54,33 +54,33 @@ class SCurve:
         if left <= 0.0:
             return TrajectoryPoint(self.destination)
         if elapsed <= left:
-            way, velocity, acceleration, jerk = self._begun(elapsed)
-            return TrajectoryPoint(self.origin + way, velocity, acceleration, jerk)
-        way, velocity, acceleration, jerk = self._begun(left)
-        return TrajectoryPoint(self.destination - way, velocity, -acceleration, jerk)
+            displacement, velocity, acceleration, jerk = self._first_half(elapsed)
+            return TrajectoryPoint(self.origin + displacement, velocity, acceleration, jerk)
+        displacement, velocity, acceleration, jerk = self._first_half(left)
+        return TrajectoryPoint(self.destination - displacement, velocity, -acceleration, jerk)
 
-    def gone(self, time: float) -> float:
-        """The integral of the way from the origin over time, up to `time` [m s]: what a moving average needs."""
+    def displacement_integral(self, time: float) -> float:
+        """The integral of the distance from the origin over time, up to `time` [m s]: what a moving average needs."""
         elapsed, left = time - self.start_time, self.end_time - time
         if elapsed <= 0.0:
             return 0.0
         if elapsed <= left:
-            return self._gone_begun(elapsed)
-        return (self.destination - self.origin) * (elapsed - 0.5 * self.duration) + self._gone_begun(max(left, 0.0))
+            return self._first_half_integral(elapsed)
+        return (self.destination - self.origin) * (elapsed - 0.5 * self.duration) + self._first_half_integral(max(left, 0.0))
 
-    def _gone_begun(self, t: float) -> float:
-        """The integral of the way from the start to `t` after it, up to half of the duration."""
+    def _first_half_integral(self, t: float) -> float:
+        """The integral of the distance from the start to `t` after it, up to half of the duration."""
         j, ramp, plateau = self.jerk, self.ramp, self.plateau
         if t < ramp:
             return j * t**4 / 24.0
-        a, gone = j * ramp, j * ramp**4 / 24.0
+        a, integral = j * ramp, j * ramp**4 / 24.0
         u = min(t - ramp, plateau)
-        gone += a * (ramp**2 * u / 6.0 + ramp * u**2 / 4.0 + u**3 / 6.0)
+        integral += a * (ramp**2 * u / 6.0 + ramp * u**2 / 4.0 + u**3 / 6.0)
         v, u = a * (ramp + plateau), max(t - ramp - plateau, 0.0)
-        return gone + v * (u**2 / 2.0 + plateau * u / 2.0) + j * (ramp**4 - max(ramp - u, 0.0) ** 4) / 24.0
+        return integral + v * (u**2 / 2.0 + plateau * u / 2.0) + j * (ramp**4 - max(ramp - u, 0.0) ** 4) / 24.0
 
-    def _begun(self, t: float) -> tuple[float, float, float, float]:
-        """Way, velocity, acceleration and jerk at `t` after the start, up to half of the duration."""
+    def _first_half(self, t: float) -> tuple[float, float, float, float]:
+        """Displacement, velocity, acceleration and jerk at `t` after the start, up to half of the duration."""
         j, ramp, plateau = self.jerk, self.ramp, self.plateau
         if t < ramp:
             return j * t**3 / 6.0, j * t**2 / 2.0, j * t, j
@@ -90,10 +90,10 @@ class SCurve:
             return a * (ramp**2 / 6.0 + ramp * t / 2.0 + t**2 / 2.0), a * (ramp / 2.0 + t), a, 0.0
         v = a * (ramp + plateau)
         until_speed = ramp - (t - plateau)  # the same ramp, seen from the moment at which speed is reached
-        way = v * (t - plateau / 2.0)
+        displacement = v * (t - plateau / 2.0)
         if until_speed > 0.0:
-            return way + j * until_speed**3 / 6.0, v - j * until_speed**2 / 2.0, j * until_speed, -j
-        return way, v, 0.0, 0.0
+            return displacement + j * until_speed**3 / 6.0, v - j * until_speed**2 / 2.0, j * until_speed, -j
+        return displacement, v, 0.0, 0.0
 
 
 def plan_s_curve(profile: Profile, origin: float, destination: float, start_time: float) -> SCurve:
@@ -105,12 +105,12 @@ def plan_s_curve(profile: Profile, origin: float, destination: float, start_time
         plateau = 0:  2 jerk ramp^3 = distance
     """
     distance = abs(destination - origin)
-    ramp, plateau, cruise = _phases(distance, profile.speed, profile.acceleration, profile.jerk)
+    ramp, plateau, cruise = _phase_durations(distance, profile.speed, profile.acceleration, profile.jerk)
     jerk = profile.jerk if destination >= origin else -profile.jerk
     return SCurve(start_time, origin, destination, jerk, ramp, plateau, cruise)
 
 
-def _phases(distance: float, speed: float, acceleration: float, jerk: float) -> tuple[float, float, float]:
+def _phase_durations(distance: float, speed: float, acceleration: float, jerk: float) -> tuple[float, float, float]:
     """Durations of jerk, full acceleration and full speed [s]."""
     to_acceleration = acceleration / jerk
     ramp = min(to_acceleration, (speed / jerk) ** 0.5)

@@ -7,7 +7,7 @@ from the travel time.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from comprope.drive.parameters import SHORTEST, Drive, Profile, Shaper
+from comprope.drive.parameters import SHORTEST_SMOOTHING, Drive, Profile, Shaper
 from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory, reference_trajectory
 from comprope.drive.trajectory.s_curve import plan_s_curve
 
@@ -47,7 +47,7 @@ def drive_for(drive: Drive, kind: str, shares: Mapping[str, float], periods: tup
     smoothing = shares.get("smoothing", 0.0) * periods[0]
     profile = Profile(
         speed=own.speed * shares["speed"], acceleration=acceleration, jerk=own.jerk * shares["jerk"],
-        smoothing=smoothing if smoothing >= SHORTEST else 0.0,
+        smoothing=smoothing if smoothing >= SHORTEST_SMOOTHING else 0.0,
     )  # fmt: skip
     landing, middle = (max(0.1, min(60.0, factor * one)) for one in periods)
     shaper = Shaper(

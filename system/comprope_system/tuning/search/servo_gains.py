@@ -42,9 +42,9 @@ def loop_margins(drive: Drive) -> Gains:
     """Margins of a drive's servo: worst gain margin up or down, phase [degrees], delay [s]."""
     places = (0.0, 0.5 * drive.shaft.height, drive.shaft.height)
     found: Sequence[Margins] = [margins(drive, place) for place in places]
-    gain = min(min(one.gain_rise, one.gain_fall) for one in found)
-    delay = min(np.radians(one.phase) / one.crossover for one in found)
-    return Gains(drive.servo, gain, min(one.phase for one in found), float(delay), float(_bounce_damping(drive)))
+    gain = min(min(one.upper_gain_margin, one.lower_gain_margin) for one in found)
+    delay = min(np.radians(one.phase_margin) / one.crossover_frequency for one in found)
+    return Gains(drive.servo, gain, min(one.phase_margin for one in found), float(delay), float(_bounce_damping(drive)))
 
 
 def best_gains(drive: Drive) -> Gains:
@@ -65,7 +65,7 @@ def _candidates(drive: Drive) -> list[Drive]:
         gains = {"position_bandwidth": position * own.position_bandwidth, "speed_bandwidth": speed * own.speed_bandwidth}
         if gains["position_bandwidth"] <= 0.25 * gains["speed_bandwidth"]:
             servo = own.model_copy(update=gains | {"speed_damping": damping})
-            found.append(drive.standing.model_copy(update={"servo": servo}))
+            found.append(drive.without_trips.model_copy(update={"servo": servo}))
     return found
 
 

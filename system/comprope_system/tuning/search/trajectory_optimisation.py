@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from comprope.drive.parameters import PARTS, Curve, Drive
+from comprope.drive.parameters import INTERVALS, Curve, Drive
 from comprope.drive.trajectory.free_curve import FreeCurve
 from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 
@@ -79,10 +79,10 @@ def optimised_drive(
 
     The time includes `smoothing` [s] of a moving average.
 
-    With several cases (ropes) the worst one counts. None if no curve of PARTS intervals is so fast.
+    With several cases (ropes) the worst one counts. None if no curve of INTERVALS intervals is so fast.
     """
     limits = _limits(drive, route, time - smoothing)
-    knots = np.array([first.at(first.start_time + first.duration * k / PARTS).acceleration for k in range(PARTS + 1)])
+    knots = np.array([first.at(first.start_time + first.duration * k / INTERVALS).acceleration for k in range(INTERVALS + 1)])
     a = _feasible(np.sign(route.destination - route.origin) * knots, limits, route, drive.profile.acceleration)
     if a is None:
         return None
@@ -137,7 +137,7 @@ class _Response:
         late = np.broadcast_to((time > REST_BEFORE + self.time)[None, :, None], base.shape)
         some = _relevant(base) | (late & _relevant(np.where(late, base, 0.0)))
         columns = []
-        for k in range(1, PARTS):
+        for k in range(1, INTERVALS):
             motion = a.copy()
             motion[k] += nudge
             columns.append((self.departures(motion)[1][some] - base[some]) / nudge)
@@ -155,20 +155,20 @@ def _relevant(departures: Floats) -> NDArray[np.bool_]:
 
 def _limits(drive: Drive, route: Route, time: float) -> Limits:
     """Speed and jerk at most, speed at least 0; no speed left at the end; the distance."""
-    n, dt, eye = PARTS + 1, time / PARTS, np.eye(PARTS + 1)
+    n, dt, eye = INTERVALS + 1, time / INTERVALS, np.eye(INTERVALS + 1)
     speeds = np.vstack([np.zeros(n), np.cumsum(0.5 * dt * (eye[1:] + eye[:-1]), axis=0)])
     jerks = np.diff(eye, axis=0) / dt
     row = (dt * speeds[:-1] + dt**2 * (2.0 * eye[:-1] + eye[1:]) / 6.0).sum(axis=0)
     maximum = np.concatenate([
         np.full(n, drive.profile.speed * (1.0 - LIMIT_MARGIN)), np.zeros(n),
-        np.full(2 * PARTS, drive.profile.jerk * (1.0 - LIMIT_MARGIN)),
+        np.full(2 * INTERVALS, drive.profile.jerk * (1.0 - LIMIT_MARGIN)),
     ])  # fmt: skip
     return Limits(np.vstack([speeds, -speeds, jerks, -jerks]), maximum, speeds[-1], row)
 
 
 def _feasible(a: Floats, limits: Limits, route: Route, maximum: float) -> Floats | None:
     """The accelerations closest to `a` that meet the limits, stop the car and cover the distance; zero at both ends."""
-    k = PARTS - 1
+    k = INTERVALS - 1
     eye, reach = np.eye(k), (1.0 - LIMIT_MARGIN) * maximum
     rows = np.vstack(
         [np.hstack([eye, -eye]), np.hstack([-eye, -eye]), np.hstack([limits.rows[:, 1:-1], 0.0 * limits.rows[:, 1:-1]])]
@@ -183,7 +183,7 @@ def _feasible(a: Floats, limits: Limits, route: Route, maximum: float) -> Floats
 def _linear_program(
     response: _Response, a: Floats, limits: Limits, objective: Objective, bound: float, maximum: float
 ) -> Floats | None:
-    """Change (PARTS + 1,) of the accelerations from the linear program; None if it is infeasible."""
+    """Change (INTERVALS + 1,) of the accelerations from the linear program; None if it is infeasible."""
     own, slope, after = response.linearised(a, DIFFERENCE_STEP * maximum)
     rows, right = [], []
     for kind, some in enumerate((np.ones_like(after), after)):
@@ -197,10 +197,10 @@ def _linear_program(
     bounds = [(min(max(-bound, -reach - k), 0.0), max(min(bound, reach - k), 0.0)) for k in a[1:-1]]
     bounds += [(0.0, one if np.isfinite(one) else None) for one in caps] + [(0.0, None)] * 2
     cost = np.concatenate(
-        [np.zeros(PARTS - 1), np.outer([1.0, 1.0 + EXCESS_WEIGHT], [objective.during, objective.after]).ravel()]
+        [np.zeros(INTERVALS - 1), np.outer([1.0, 1.0 + EXCESS_WEIGHT], [objective.during, objective.after]).ravel()]
     )
     found = linprog(cost, np.vstack(rows), np.concatenate(right), equal, [0.0, 0.0], bounds, method="highs")
-    return np.concatenate([[0.0], found.x[: PARTS - 1], [0.0]]) if found.status == 0 else None
+    return np.concatenate([[0.0], found.x[: INTERVALS - 1], [0.0]]) if found.status == 0 else None
 
 
 def _columns(count: int, kind: int) -> Floats:
@@ -218,9 +218,9 @@ def _as_drive(drive: Drive, route: Route, time: float, smoothing: float, a: Floa
     shares[1:-1] = np.diff(speeds, prepend=0.0)
     shares /= np.abs(shares).max()
     shares[np.abs(shares) < 1e-12] = 0.0
-    curve = Curve(**{f"a{k}": float(shares[k]) for k in range(1, PARTS)})
+    curve = Curve(**{f"a{k}": float(shares[k]) for k in range(1, INTERVALS)})
     made = drive.model_copy(update={"curve": curve})
-    trip = trajectory_of(made, route).trip
+    trip = trajectory_of(made, route).unshaped
     needed = (
         np.abs(np.array(trip.knots[0])).max() * (trip.duration / (time - smoothing)) ** 2 if isinstance(trip, FreeCurve) else 0.0
     )
