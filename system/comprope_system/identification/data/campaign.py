@@ -1,6 +1,6 @@
-"""Measurement campaigns: a folder with campaign.toml, a model file and one CSV file per run.
+"""Reading of measurement campaigns: a folder with campaign.toml, a model file and one CSV file for each run.
 
-Everything is read and checked at once; every problem of all files is reported together.
+All files are read and checked before an error is raised, so that it names every problem of all files.
 """
 
 from dataclasses import dataclass, field
@@ -29,7 +29,7 @@ Quantity = Literal[
 
 
 class Channel(Component):
-    """What one column of the CSV files is."""
+    """Measured channel: a column of the CSV files with its quantity, unit, reference and noise."""
 
     column: str = Field(description="the column's name in the CSV header")
     quantity: Quantity = Field(description="what is measured")
@@ -45,7 +45,7 @@ class Channel(Component):
 
 
 class RunSpec(Component):
-    """One run: its file, what it may be used for, and what differs from the model file."""
+    """Entry of a run in campaign.toml: its file, its role, and the parameters that differ from the model file."""
 
     file: str = Field(description="the CSV file, relative to campaign.toml")
     role: Literal["fit", "validate"] = Field("fit", description="validate: never used for fitting or ranking")
@@ -53,7 +53,7 @@ class RunSpec(Component):
 
 
 class CampaignFile(Component):
-    """campaign.toml."""
+    """Content of campaign.toml."""
 
     name: str = Field(description="name of the campaign")
     model: str = Field(description="the model file, relative to campaign.toml")
@@ -63,10 +63,10 @@ class CampaignFile(Component):
 
 @dataclass(frozen=True)
 class Run:
-    """One measured run in SI units: `values[column]` (n,) at `time` (n,) [s], NaN where there is none.
+    """Measured run in SI units: `values[column]` (n,) at `time` (n,) [s], NaN where a sample is missing.
 
-    `changes` are what differs from the model file; `trip` and `counterweight` are the smooth motions behind
-    the measured positions; `notes` are remarks about the data that a person should read.
+    `changes` are the parameters that differ from the model file; `trip` and `counterweight` are smooth trajectories fitted to
+    the measured positions; `notes` are messages about the data.
     """
 
     file: str
@@ -81,13 +81,13 @@ class Run:
 
     @property
     def rest(self) -> NDArray[np.bool_]:
-        """Which samples lie before the trip."""
+        """Samples (n,) before the trip."""
         return np.asarray(self.time <= max(self.trip.rest_before, self.time[0] + TRIP_PHASES.rest_duration))
 
 
 @dataclass(frozen=True)
 class Campaign:
-    """A campaign: its model under test, channels by column, and runs."""
+    """Campaign: the model under test, channels by column, and runs."""
 
     name: str
     folder: Path
@@ -98,15 +98,15 @@ class Campaign:
     notes: tuple[str, ...] = field(default=())
 
     def of_role(self, role: str) -> tuple[Run, ...]:
-        """The runs of one role."""
+        """The runs of one role, "fit" or "validate"."""
         return tuple(run for run in self.runs if run.role == role)
 
 
 def load_campaign(folder: str | Path) -> Campaign:
-    """Read a campaign; raises `InputError` with every problem of its files, one line each."""
+    """Campaign in a folder, or described by a file; raises `InputError` with one line for each problem of its files."""
     path = Path(folder)
     path = path / "campaign.toml" if path.is_dir() or not path.suffix else path
-    described = _described(path)
+    described = _campaign_file(path)
     found: list[str] = []
     model = _collect(found, lambda: load(path.parent / described.model))
     found += _channel_problems(path, described, model)
@@ -116,20 +116,20 @@ def load_campaign(folder: str | Path) -> Campaign:
     if found or model is None:
         raise InputError("\n".join(found))
     channels = {one.column: one for one in described.channels}
-    whole = tuple(run for run in runs if run is not None)
-    return Campaign(described.name, path.parent, model, path.parent / described.model, channels, whole)
+    complete = tuple(run for run in runs if run is not None)
+    return Campaign(described.name, path.parent, model, path.parent / described.model, channels, complete)
 
 
-def _collect(found: list[str], make: Any) -> Any:
-    """What `make` makes, or None with its problem noted."""
+def _collect(problems_found: list[str], make: Any) -> Any:
+    """Result of `make`; None if it raises `InputError`, whose lines are appended to `problems_found`."""
     try:
         return make()
     except InputError as error:
-        found += str(error).splitlines()
+        problems_found += str(error).splitlines()
         return None
 
 
-def _described(path: Path) -> CampaignFile:
+def _campaign_file(path: Path) -> CampaignFile:
     try:
         table = {key: tuple(value) if isinstance(value, list) else value for key, value in read_toml(path).items()}
         return CampaignFile.model_validate(table)

@@ -1,4 +1,4 @@
-"""The phases of a trip: at rest, speeding up, at speed, slowing down, and after the stop."""
+"""Phases of a trip: rest, acceleration, cruise, deceleration, and after the stop."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,9 @@ PHASES = ("rest", "acceleration", "cruise", "deceleration", "after_stop")
 
 
 def phases(trip: Trip, time: Floats) -> dict[str, Mask]:
-    """Which samples at `time` (n,) [s] lie in which phase; each lies in one.
+    """Samples (n,) of each phase at `time` (n,) [s]; each sample lies in exactly one phase.
 
-    Speed decides, not acceleration, which a recovered trip knows less well.
+    The limits of the cruise are found from the speed, which a recovered trip has more accurately than the acceleration.
     """
     speed = np.abs(trip.velocity(time))
     fast = np.flatnonzero(speed >= TRIP_PHASES.cruise_speed * speed.max()) if speed.any() else np.array([len(time), -1])

@@ -1,9 +1,12 @@
-"""From raw samples to numbers that can be weighed: binned, cleaned of outliers, whitened.
+"""Binning, outlier rejection and whitening of measured channels.
 
-Noise is taken from the campaign or, where it says nothing, from the rest before the trip; never from
-the residual, which would hide what is missing. Beside the noise each channel is allowed a slow
-deviation of its own, the discrepancy: what the mesh, the time step and the recovered trip leave
-unsaid even when no effect is missing. It is modelled as an exponentially correlated process.
+The standard deviation of the noise is stated in the campaign or estimated from the rest before the trip, never from the
+residual, which would hide what is missing. Each channel is also allowed a slow model discrepancy (error of mesh, time step
+and recovered trip), an exponentially correlated process. With bins of n_k samples at times t_k the covariance is
+
+    C_jk = s_d^2 exp(-|t_j - t_k| / T) + delta_jk s^2 / n_k,    C = L L',
+
+with the noise s and the discrepancy s_d; the whitened channel is L^-1 y. Compare Kennedy and O'Hagan (2001).
 """
 
 from collections.abc import Mapping
@@ -21,15 +24,16 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class WhitenedChannel:
-    """One channel of one run: which samples fall into which bin, and how to whiten the bins.
+    """Bins of one channel in one run, and the factor that whitens them.
 
-    `of` (samples,) is each sample's bin or -1; `factor` (bins, bins) is the lower Cholesky factor of the bins'
-    covariance; `data` (bins,) the measured means; `noise` one sample's standard deviation [SI].
+    `bin_of` (samples,) is the bin of each sample, -1 for none; `count` (bins,) the samples in each bin; `factor` (bins, bins)
+    the lower Cholesky factor of the bins' covariance; `data` (bins,) the measured means [SI]; `noise` and `discrepancy` are
+    standard deviations [SI] of one sample.
     """
 
     run: str
     column: str
-    of: NDArray[np.int64]
+    bin_of: NDArray[np.int64]
     count: Floats
     factor: Floats
     data: Floats
@@ -37,17 +41,20 @@ class WhitenedChannel:
     discrepancy: float
 
     def means(self, values: Floats) -> Floats:
-        """Mean of `values` (samples,) in each bin."""
-        used = self.of >= 0
-        return np.bincount(self.of[used], np.nan_to_num(values[used]), len(self.count)) / self.count
+        """Mean (bins,) of `values` (samples,) in each bin."""
+        used = self.bin_of >= 0
+        return np.bincount(self.bin_of[used], np.nan_to_num(values[used]), len(self.count)) / self.count
 
     def whiten(self, means: Floats) -> Floats:
-        """Bins' means (bins,) or (bins, k) scaled so that noise and discrepancy are white with unit variance."""
+        """Means (bins,) or (bins, k) scaled so that noise and discrepancy are white with unit variance."""
         return np.asarray(solve_triangular(self.factor, means, lower=True))
 
 
 def whiten_channel(run: Run, channel: Channel, value: Floats, visible: NDArray[np.bool_]) -> WhitenedChannel | None:
-    """Bin and weigh one channel of a run; None where it holds too little. `value` is referred as the channel is."""
+    """Bins and weights of a channel in a run; None with fewer than `WHITENING.min_samples` usable samples.
+
+    `value` (samples,) [SI] is relative to rest where the channel is; samples that are not `visible` (samples,) are left out.
+    """
     noise = sample_noise(run, channel, value)
     good = np.isfinite(value) & visible
     good[good] = ~outliers(value[good], noise)
@@ -55,47 +62,52 @@ def whiten_channel(run: Run, channel: Channel, value: Floats, visible: NDArray[n
         return None
     width = max(WHITENING.bin_width, (run.time[-1] - run.time[0]) / WHITENING.max_bins)
     index = ((run.time - run.time[0]) / width).astype(np.int64)
-    used, of_good = np.unique(index[good], return_inverse=True)
-    of = np.full(len(run.time), -1, np.int64)
-    of[good] = of_good
-    count = np.bincount(of_good).astype(float)
+    used, bin_of_good = np.unique(index[good], return_inverse=True)
+    bin_of = np.full(len(run.time), -1, np.int64)
+    bin_of[good] = bin_of_good
+    count = np.bincount(bin_of_good).astype(float)
     discrepancy = max(WHITENING.discrepancy_share * float(np.std(value[good])), WHITENING.discrepancy_noise * noise)
     lag = np.abs(np.subtract.outer(used, used)) * width
     covariance = discrepancy**2 * np.exp(-lag / WHITENING.discrepancy_time) + np.diag(noise**2 / count)
-    if channel.reference == "rest":  # the mean at rest that was taken off is itself uncertain
+    if channel.reference == "rest":  # the mean at rest that was subtracted has an error of its own, common to all bins
         covariance += noise**2 / max(run.rest.sum(), 1)
-    data = np.bincount(of_good, value[good]) / count
-    return WhitenedChannel(run.file, channel.column, of, count, cholesky(covariance, lower=True), data, noise, discrepancy)
+    data = np.bincount(bin_of_good, value[good]) / count
+    factor = cholesky(covariance, lower=True)
+    return WhitenedChannel(run.file, channel.column, bin_of, count, factor, data, noise, discrepancy)
 
 
 def sample_noise(run: Run, channel: Channel, value: Floats) -> float:
-    """Standard deviation [SI] of one sample: as stated unless the rest before the trip contradicts that, or as seen there."""
+    """Standard deviation [SI] of the noise of one sample: as stated, unless the rest before the trip contradicts that."""
     stated, rest = (channel.noise or 0.0) * channel.scale, value[run.rest & np.isfinite(value)]
     if stated and len(rest) < NOISE.min_rest_samples:
         return stated
     if stated:
-        seen = spread_of_steps(rest)
-        return seen if contradicted(stated, seen, len(rest)) else stated
-    seen = spread_of_steps(rest if len(rest) >= NOISE.min_estimate_samples else value[np.isfinite(value)])
-    return max(seen, NOISE.floor + NOISE.floor_share * float(np.nanstd(value)))
+        estimated = noise_from_differences(rest)
+        return estimated if is_contradicted(stated, estimated, len(rest)) else stated
+    estimated = noise_from_differences(rest if len(rest) >= NOISE.min_estimate_samples else value[np.isfinite(value)])
+    return max(estimated, NOISE.floor + NOISE.floor_share * float(np.nanstd(value)))
 
 
-def spread_of_steps(value: Floats) -> float:
-    """Standard deviation of white noise, from the steps between samples, so that neither drift nor outliers count."""
+def noise_from_differences(value: Floats) -> float:
+    """Standard deviation of white noise in `value` (n,), from the median absolute deviation of successive differences.
+
+    Neither drift nor outliers contribute.
+    """
     steps = np.diff(value)
     return NOISE.mad_factor * float(np.median(np.abs(steps - np.median(steps)))) / 2.0**0.5
 
 
-def contradicted(stated: float, seen: float, count: int) -> bool:
-    """Whether a stated noise is another than that seen in `count` samples; far less than stated may be coarse digits instead."""
-    margin = NOISE.contradiction_factor * (
-        1.0 + NOISE.contradiction_width / count**0.5
-    )  # what makes a difference, and two deviations of the estimate
-    return seen > margin * stated or NOISE.quantisation_ratio * stated < seen < stated / margin
+def is_contradicted(stated: float, estimated: float, count: int) -> bool:
+    """Whether an estimate from `count` samples contradicts the stated noise.
+
+    An estimate far below the stated noise may be due to coarse quantisation and contradicts nothing.
+    """
+    margin = NOISE.contradiction_factor * (1.0 + NOISE.contradiction_width / count**0.5)
+    return estimated > margin * stated or NOISE.quantisation_ratio * stated < estimated < stated / margin
 
 
 def outliers(value: Floats, noise: float, window: int = WHITENING.outlier_window) -> NDArray[np.bool_]:
-    """Which samples are far from the median of their neighbours."""
+    """Samples (n,) far from the median of a `window` of neighbours, in units of their scatter or the noise (Hampel filter)."""
     half = window // 2
     padded = np.pad(value, half, mode="edge")
     neighbours = np.lib.stride_tricks.sliding_window_view(padded, window)
@@ -105,5 +117,5 @@ def outliers(value: Floats, noise: float, window: int = WHITENING.outlier_window
 
 
 def stack(whitened_channels: list[WhitenedChannel], values: Mapping[tuple[str, str], Floats]) -> Floats:
-    """Whitened means of all parts, one after the other; `values[(run, column)]` are in SI units per sample."""
+    """Whitened means (N,) of all channels one after the other; `values[(run, column)]` (samples,) are in SI units."""
     return np.concatenate([one.whiten(one.means(values[one.run, one.column])) for one in whitened_channels])

@@ -1,7 +1,7 @@
-"""Fits of one hypothesis: Gauss and Newton's method on plant and effect together, within bounds and priors.
+"""Gauss-Newton fit of plant and effect together, within bounds and with priors.
 
-Derivatives along a run cost several plain runs. So they are carried from step to step by Broyden's update (1965), which makes
-them right along the step just made, and found anew where a step gives much less than they promise, and at the end.
+The derivatives of a run cost several plain runs. So they are carried from step to step by Broyden's rank-one update (1965),
+which makes them exact along the last step, and are computed anew where a step gains much less than they predict, and at the end.
 """
 
 from collections.abc import Sequence
@@ -23,12 +23,13 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class FitResult:
-    """The best point of a hypothesis (None: nothing is missing), its predictions and how well they agree.
+    """Fit of a hypothesis (None: plant alone): its point, predictions there, and the agreement with the data.
 
-    `misfit` is the sum of squares in units of noise and discrepancy, `penalty` that of coefficients over priors;
-    `coefficients` are plant first, then the effect; `covariance` theirs; `jacobian` (N, coefficients) are the
-    derivatives there. `strain` is what the plant's coefficients cost, there or where derivatives lead from there: a fit
-    ends before priors have pulled all they could.
+    `coefficients` (k,) are those of the plant, then of the effect, with their `covariance` (k, k); `jacobian` (N, k) are the
+    derivatives of the whitened predictions by them. `chi_square` is the sum of squares of the whitened residual (N,),
+    `prior_penalty` the sum of squares of coefficients over their priors' standard deviations. `prior_cost` is the cost of the
+    plant's coefficients in the score, at the point or at the minimum that the linearisation predicts, whichever is less: a fit
+    ends before the priors have pulled it to the minimum.
     """
 
     hypothesis: Hypothesis | None
@@ -42,12 +43,12 @@ class FitResult:
     prior_cost: float
 
     def cost(self, scale: float = 1.0) -> float:
-        """Misfit and priors in its scale."""
+        """Objective of the fit: chi-square plus the prior penalty times `scale`."""
         return self.chi_square + scale * self.prior_penalty
 
     @property
     def penalised_chi_square(self) -> float:
-        """The misfit, raised for a plant off its data sheets."""
+        """Chi-square with the prior cost of the plant included."""
         return penalised_chi_square(self.chi_square, self.prior_cost)
 
     @property
@@ -64,79 +65,90 @@ def gauss_newton(
     abandon_above: float = float("inf"),
     initial_fit: FitResult | None = None,
 ) -> FitResult:
-    """The best point near `start`; `begun` is what is known of `start`.
+    """Fit of a hypothesis from the coefficients `start` (k,); `initial_fit` is the evaluation there, if it is known.
 
-    A fit that expects to end above `rival` is left where it is. Raises `SimulationError` if `start` cannot be simulated.
+    A fit whose linearisation predicts a chi-square above `abandon_above` ends where it is. Raises `SimulationError` if the model
+    cannot be simulated at `start`.
     """
     directions, count, fresh = fit_directions(hypothesis), len(problem.data), True
     best = initial_fit or evaluate(problem, hypothesis, np.asarray(start, float), base)
-    for done in range(GAUSS_NEWTON.max_iterations):
-        # While much is missed, the plant's priors count in the scale of that: a wild plant would hide what is missing.
+    for iteration in range(GAUSS_NEWTON.max_iterations):
+        # With a large residual the priors are weighed by its mean square: else an implausible plant would imitate the effect.
         scale = scale_of(best.chi_square, count)
         solution = solve(problem.residual(best.predictions), best.jacobian, directions, best.coefficients, scale)
-        best = _seen_from(best, solution)
-        if solution.chi_square > abandon_above * (
-            1.0 if done >= GAUSS_NEWTON.trusted_iteration else GAUSS_NEWTON.hopeless_factor
-        ):
+        best = _with_linear_prediction(best, solution)
+        trusted = iteration >= GAUSS_NEWTON.trusted_iteration
+        if solution.chi_square > abandon_above * (1.0 if trusted else GAUSS_NEWTON.hopeless_factor):
             break
-        enough, promised, before = GAUSS_NEWTON.min_decrease * scale * count, best.cost(scale) - solution.cost, best.cost(scale)
-        if promised >= enough:
-            best = _downhill(problem, best, solution, base, scale)
+        before = best.cost(scale)
+        enough, predicted = GAUSS_NEWTON.min_decrease * scale * count, before - solution.cost
+        if predicted >= enough:
+            best = _line_search(problem, best, solution, base, scale)
         gain = before - best.cost(scale)
         if fresh and gain < enough:
             break
-        fresh = gain < max(enough, GAUSS_NEWTON.min_gain_ratio * promised)
+        fresh = gain < max(enough, GAUSS_NEWTON.min_gain_ratio * predicted)
         if fresh:
             best = replace(evaluate(problem, hypothesis, best.coefficients, base), covariance=best.covariance)
     return best
 
 
-def _seen_from(fitted: FitResult, solution: Solution) -> FitResult:
-    """The fit with what the solution by its derivatives tells."""
-    least = min(prior_cost(fitted.coefficients), prior_cost(solution.coefficients))
-    return replace(fitted, covariance=solution.covariance, prior_cost=least)
-
-
 def evaluate(problem: LeastSquaresProblem, hypothesis: Hypothesis | None, x: Floats, base: ParameterPoint) -> FitResult:
-    """Misfit and derivatives at the coefficients x (k,). Raises `SimulationError` where the model cannot be simulated there."""
-    return _fitted(problem, hypothesis, x, base, *linearise(problem, hypothesis, x, base))
+    """Predictions and derivatives at the coefficients x (k,); raises `SimulationError` where the simulation fails."""
+    predictions, jacobian = linearise(problem, hypothesis, x, base)
+    return _fit_result(problem, hypothesis, x, base, predictions, jacobian)
 
 
-def _fitted(
+def _fit_result(
     problem: LeastSquaresProblem,
     hypothesis: Hypothesis | None,
     x: Floats,
     base: ParameterPoint,
     predictions: Predictions,
-    by: Floats,
+    jacobian: Floats,
 ) -> FitResult:
+    """Result at the coefficients x (k,), with a covariance yet to be found."""
     residual = problem.residual(predictions)
-    prior_penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, fit_directions(hypothesis), strict=True)))
-    point, none = point_at(hypothesis, list(x), base), np.zeros((len(x), len(x)))
-    return FitResult(hypothesis, point, predictions, x, none, by, float(residual @ residual), prior_penalty, prior_cost(x))
+    penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, fit_directions(hypothesis), strict=True)))
+    point, covariance = point_at(hypothesis, list(x), base), np.zeros((len(x), len(x)))
+    chi_square = float(residual @ residual)
+    return FitResult(hypothesis, point, predictions, x, covariance, jacobian, chi_square, penalty, prior_cost(x))
 
 
-def _downhill(problem: LeastSquaresProblem, best: FitResult, solution: Solution, base: ParameterPoint, scale: float) -> FitResult:
-    """The solution's point, or one nearer to the present where that one is worse than it or cannot be simulated."""
+def _with_linear_prediction(fitted: FitResult, solution: Solution) -> FitResult:
+    """The fit with the covariance of its linear solution, and the lesser of both prior costs."""
+    least = min(prior_cost(fitted.coefficients), prior_cost(solution.coefficients))
+    return replace(fitted, covariance=solution.covariance, prior_cost=least)
+
+
+def _line_search(
+    problem: LeastSquaresProblem, best: FitResult, solution: Solution, base: ParameterPoint, scale: float
+) -> FitResult:
+    """The full step to the linear solution, or the best of some shorter ones if that does not decrease the cost."""
     step = solution.coefficients - best.coefficients
     for shares in ((1.0,), GAUSS_NEWTON.step_fractions):
-        tried = _stepped(problem, best, [share * step for share in shares], base)
+        tried = _broyden_steps(problem, best, [share * step for share in shares], base)
         found = min(tried, key=lambda one: one.cost(scale), default=best)
         if found.cost(scale) < best.cost(scale):
             return replace(found, covariance=solution.covariance)
     return best
 
 
-def _stepped(problem: LeastSquaresProblem, best: FitResult, steps: Sequence[Floats], base: ParameterPoint) -> list[FitResult]:
-    """Those points some steps away that can be simulated, with derivatives carried along the step."""
+def _broyden_steps(
+    problem: LeastSquaresProblem, best: FitResult, steps: Sequence[Floats], base: ParameterPoint
+) -> list[FitResult]:
+    """Results after each of some steps (k,), with updated derivatives; those that cannot be simulated are left out.
+
+    With the step s and W = diag(prior^-2), J+ = J + (y+ - y - J s) (W s)' / (s' W s).
+    """
     found, y = [], problem.whitened(best.predictions)
-    widths = np.array([one.prior for one in fit_directions(best.hypothesis)])
+    priors = np.array([one.prior for one in fit_directions(best.hypothesis)])
     reached = [best.coefficients + step for step in steps]
-    at = problem.attempts(*(point_at(best.hypothesis, list(x), base) for x in reached))
-    for x, step, predictions in zip(reached, steps, at, strict=True):
+    predicted = problem.attempts(*(point_at(best.hypothesis, list(x), base) for x in reached))
+    for x, step, predictions in zip(reached, steps, predicted, strict=True):
         if predictions is not None:
-            along = step / widths**2
-            missed = problem.whitened(predictions) - y - best.jacobian @ step
-            by = best.jacobian + np.outer(missed, along / float(along @ step))
-            found.append(_fitted(problem, best.hypothesis, x, base, predictions, by))
+            along = step / priors**2
+            error = problem.whitened(predictions) - y - best.jacobian @ step
+            jacobian = best.jacobian + np.outer(error, along / float(along @ step))
+            found.append(_fit_result(problem, best.hypothesis, x, base, predictions, jacobian))
     return found

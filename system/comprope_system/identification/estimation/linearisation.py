@@ -1,4 +1,4 @@
-"""A model linearised about a point: predictions and their derivatives by the coefficients of directions."""
+"""Linearisation of a model about a point: predictions and their derivatives by the coefficients of a fit."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -26,19 +26,19 @@ Tangents = tuple[dict[str, Floats], dict[int, dict[str, Floats]]]
 
 
 def fit_directions(hypothesis: Hypothesis | None) -> list[Direction]:
-    """The directions of a fit: the plant's, then the effect's."""
+    """Directions of a fit: those of the plant, then those of the effect."""
     return [*PLANT_PARAMETERS, *(hypothesis.directions if hypothesis else ())]
 
 
 def point_at(hypothesis: Hypothesis | None, coefficients: Sequence[float], base: ParameterPoint) -> ParameterPoint:
-    """The point of these coefficients, beside the effects that `base` has."""
+    """Point of some coefficients (plant first), added to the effects of `base`."""
     names = [one.name for one in PLANT_PARAMETERS]
     plant = replace(base, plant=dict(zip(names, map(float, coefficients[: len(names)]), strict=True)))
     return with_effect(plant, hypothesis, [float(c) for c in coefficients[len(names) :]]) if hypothesis else plant
 
 
 def with_effect(point: ParameterPoint, hypothesis: Hypothesis, coefficients: Sequence[float]) -> ParameterPoint:
-    """The point with an effect of these coefficients beside those it has."""
+    """The point with an effect of these coefficients added to its own."""
     own = list(coefficients)
     return replace(
         point, effects=dict(point.effects) | hypothesis.parameters(own), shifts=_merged(point.shifts, hypothesis.shifts(own))
@@ -54,9 +54,9 @@ def _merged(
 def linearise(
     problem: LeastSquaresProblem, hypothesis: Hypothesis | None, x: Floats, base: ParameterPoint
 ) -> tuple[Predictions, Floats]:
-    """Predictions at the coefficients x (k,), and their derivatives (N, k), from one replay of each run.
+    """Predictions at the coefficients x (k,) and their whitened derivatives (N, k), from one replay of each run.
 
-    Raises `SimulationError` where the model cannot be simulated there.
+    Raises `SimulationError` where the simulation fails.
     """
     here, directions = problem.with_held_fixed(point_at(hypothesis, list(x), base)), fit_directions(hypothesis)
     steps = [
@@ -67,7 +67,7 @@ def linearise(
     there = [problem.with_held_fixed(point_at(hypothesis, list(one), base)) for one in moved]
     campaign = problem.campaign
     jobs = [
-        problem.executor.submit(tangents, campaign.model, run, campaign.channels, here, list(zip(there, steps, strict=True)))
+        problem.executor.submit(run_tangents, campaign.model, run, campaign.channels, here, list(zip(there, steps, strict=True)))
         for run in problem.runs
     ]
     found = dict(zip((run.file for run in problem.runs), (job.result() for job in jobs), strict=True))
@@ -87,26 +87,29 @@ def _column(
     """Derivatives (N,) by coefficient k at the point `here`."""
     if k < len(PLANT_PARAMETERS) and PLANT_PARAMETERS[k].name == CLOCK:
         runs = {run.file: run for run in problem.runs}
-        return problem.column({place: _by_delay(runs[place[0]], value) for place, value in at.items()})
+        return problem.column({place: _delay_derivative(runs[place[0]], value) for place, value in at.items()})
     if hypothesis and k >= len(PLANT_PARAMETERS) and hypothesis.faulty[k - len(PLANT_PARAMETERS)]:
-        return _by_instrument(problem, hypothesis.directions[k - len(PLANT_PARAMETERS)], here, at)
+        return _instrument_column(problem, hypothesis.directions[k - len(PLANT_PARAMETERS)], here, at)
     return problem.column({(file, column): values for file, (_, by) in found.items() for column, values in by.get(k, {}).items()})
 
 
-def tangents(
+def run_tangents(
     model: RopeModel,
     run: Run,
     channels: Mapping[str, Channel],
     here: ParameterPoint,
-    there: Sequence[tuple[ParameterPoint, float]],
+    neighbours: Sequence[tuple[ParameterPoint, float]],
 ) -> Tangents:
-    """Channels of a run at a point, and by k their derivatives towards there[k], a step away; none where nothing moves."""
+    """Channels of a run at a point, and their derivatives towards each of some points a step away, by number.
+
+    `neighbours` are (point, step); one that changes no model parameter has no derivative.
+    """
     changes = here.changes(model, run)
     values = values_of(with_changes(model, changes, run.file))
     directions = {}
-    for k, (point, step) in enumerate(there):
+    for k, (point, step) in enumerate(neighbours):
         moved = values_of(with_changes(model, point.changes(model, run), run.file))
-        change = {key: _apart(key, value, values.get(key, DECLARED[key].neutral)) / step for key, value in moved.items()}
+        change = {key: _difference(key, value, values.get(key, DECLARED[key].neutral)) / step for key, value in moved.items()}
         if amounts := {key: amount for key, amount in change.items() if amount}:
             directions[str(k)] = amounts
     moved_run = replace(run, changes=changes)
@@ -114,23 +117,20 @@ def tangents(
     return shown.values, {int(k): one for k, one in by.items()}
 
 
-def _apart(key: str, a: float, b: float) -> float:
-    """How far a is from b; a phase may have gone once round."""
+def _difference(key: str, a: float, b: float) -> float:
+    """Difference a - b of a parameter's values; of angles the one within half a turn."""
     return remainder(a - b, 2.0 * pi) if DECLARED[key].unit == "rad" else a - b
 
 
 def effect_jacobian(problem: LeastSquaresProblem, hypothesis: Hypothesis, origin: ParameterPoint, at: Predictions) -> Floats:
-    """Derivatives (N, directions) by the coefficients of an effect that is not there yet; `at` are the predictions without it.
-
-    Points a step away are those of `stepped`.
-    """
+    """Derivatives (N, directions) by the coefficients of an effect that `origin` lacks; `at` are the predictions without it."""
     if hypothesis.is_instrument:
-        return np.column_stack([_by_instrument(problem, one, origin, at) for one in hypothesis.directions])
+        return np.column_stack([_instrument_column(problem, one, origin, at) for one in hypothesis.directions])
     return finite_difference_jacobian(problem, hypothesis, at, problem.predictions(*one_step_away(origin, hypothesis)))
 
 
 def one_step_away(origin: ParameterPoint, hypothesis: Hypothesis) -> list[ParameterPoint]:
-    """One point for each direction of an effect, a step away, the others at zero."""
+    """Points with one coefficient of an effect at a finite step and the others at zero, one for each direction."""
     count, step = len(hypothesis.directions), _step_of(hypothesis)
     return [with_effect(origin, hypothesis, [step * (j == k) for j in range(count)]) for k in range(count)]
 
@@ -138,21 +138,22 @@ def one_step_away(origin: ParameterPoint, hypothesis: Hypothesis) -> list[Parame
 def finite_difference_jacobian(
     problem: LeastSquaresProblem, hypothesis: Hypothesis, at: Predictions, moved: Sequence[Predictions]
 ) -> Floats:
-    """Derivatives (N, directions) from the predictions at the points `stepped`."""
+    """Derivatives (N, directions) from the predictions at the points of `one_step_away`."""
     y = problem.whitened(at)
     return np.column_stack([problem.whitened(one) - y for one in moved]) / _step_of(hypothesis)
 
 
 def _step_of(hypothesis: Hypothesis) -> float:
-    """A step in coefficients: the whole typical value, since some effects do little until they are of some size.
+    """Finite step of an effect's coefficients.
 
-    What oscillates does as much at any size, but at its typical one a resonance may swing the rope by metres.
+    It is the typical value, since friction does little until it has some size. The response to an oscillating effect is
+    proportional to its amplitude, but at its typical value a resonance may displace the rope by metres.
     """
     return LINEARISATION.oscillation_step if hypothesis.polar else LINEARISATION.effect_step
 
 
-def _by_instrument(problem: LeastSquaresProblem, direction: Direction, here: ParameterPoint, at: Predictions) -> Floats:
-    """Derivative (N,) of one channel by its gain, offset, delay or drift, from the predictions themselves."""
+def _instrument_column(problem: LeastSquaresProblem, direction: Direction, here: ParameterPoint, at: Predictions) -> Floats:
+    """Derivative (N,) of one channel by its gain, offset, delay or drift, from the predictions alone."""
     ((key, size),) = direction.changes.items()
     _, effect, column = key.split(".", 2)
     moved = {}
@@ -162,12 +163,12 @@ def _by_instrument(problem: LeastSquaresProblem, direction: Direction, here: Par
             "sensor_gain": value / here.effects.get(key, 1.0),
             "sensor_offset": np.ones_like(value),
             "sensor_drift": run.time - run.time[0],
-            "sensor_delay": _by_delay(run, value),
+            "sensor_delay": _delay_derivative(run, value),
         }[effect]
         moved[run.file, column] = size * relative_to_rest({column: slope}, run, problem.campaign.channels)[column]
     return problem.column(moved)
 
 
-def _by_delay(run: Run, value: Floats) -> Floats:
-    """Derivative of a channel by how late it is."""
+def _delay_derivative(run: Run, value: Floats) -> Floats:
+    """Derivative of a channel (n,) by its delay [s]."""
     return np.asarray(-np.gradient(value, run.time))

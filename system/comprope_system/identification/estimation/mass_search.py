@@ -1,8 +1,8 @@
-"""A rope heavier or lighter than its data sheet says: derivatives alone do not find it.
+"""Search over the rope's mass, which sets the period of its oscillations.
 
-The rope's mass sets how long a swing takes. A model that is out of step by half a swing before a record ends is not led back
-by derivatives, but to more damping, where there is no swing to be out of step with. So other masses are tried one after the
-other, and for each all else is refitted by its derivatives.
+A model that is more than half a period out of phase at the end of a record is led by derivatives to more damping, where
+nothing oscillates that could be out of phase, instead of to another mass (cycle skipping). So the mass is tried on a grid,
+and for each mass all other parameters are refitted linearly.
 """
 
 from collections.abc import Sequence
@@ -22,53 +22,8 @@ Floats = NDArray[np.float64]
 MASS = [one.name for one in PLANT_PARAMETERS].index("rope.mass_per_length")
 
 
-def _start_at_better_mass(problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint) -> Floats | None:
-    """Coefficients (k,) with a mass that brings the model into step; None where no other mass promises to."""
-    here = initial_fit.coefficients
-    current = float(here[MASS])
-    if _refit_linearised(problem, initial_fit, initial_fit.predictions, here).chi_square < MASS_SEARCH.adequate * len(
-        problem.data
-    ):
-        return None
-    looks = fits_at_masses(problem, initial_fit, base, _masses(current), coarsening_factor(problem.campaign.model))
-    found = {float(x[MASS]): solution for x, _, solution in looks}
-    best = min(found, key=lambda mass: found[mass].chi_square, default=current)
-    if current not in found or found[best].chi_square > MASS_SEARCH.min_improvement * found[current].chi_square:
-        return None
-    return found[best].coefficients
-
-
-def _masses(current: float) -> list[float]:
-    """Masses within MASS_SEARCH.reach of the data sheet's, and the present one."""
-    steps = int(2.0 * MASS_SEARCH.reach / MASS_SEARCH.spacing)
-    return [
-        current + MASS_SEARCH.spacing * k
-        for k in range(-steps, steps + 1)
-        if k == 0 or abs(current + MASS_SEARCH.spacing * k) <= MASS_SEARCH.reach
-    ]
-
-
-def fits_at_masses(
-    problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint, masses: Sequence[float], coarse: float = 1.0
-) -> list[tuple[Floats, Predictions, Solution]]:
-    """The fit `begun` with each of some masses: coefficients (k,), predictions, and all refitted by the derivatives of `begun`.
-
-    Masses with which the model cannot be simulated are left out.
-    """
-    tried = [np.where(np.arange(len(initial_fit.coefficients)) == MASS, mass, initial_fit.coefficients) for mass in masses]
-    at = problem.attempts(*(point_at(initial_fit.hypothesis, list(x), base) for x in tried), coarse=coarse)
-    return [
-        (x, seen, _refit_linearised(problem, initial_fit, seen, x)) for x, seen in zip(tried, at, strict=True) if seen is not None
-    ]
-
-
-def _refit_linearised(problem: LeastSquaresProblem, initial_fit: FitResult, predictions: Predictions, x: Floats) -> Solution:
-    """All coefficients refitted about x by the derivatives of `begun`."""
-    return solve_in_scale(problem.residual(predictions), initial_fit.jacobian, fit_directions(initial_fit.hypothesis), x)
-
-
 def fit_with_mass_search(problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint) -> FitResult:
-    """The best point near `begun`, or near where another mass brings it into step."""
+    """Gauss-Newton fit from `initial_fit`, or from a better mass of the rope if there is one."""
     start = _start_at_better_mass(problem, initial_fit, base)
     if start is None:
         return gauss_newton(problem, initial_fit.hypothesis, initial_fit.coefficients, base, initial_fit=initial_fit)
@@ -76,8 +31,53 @@ def fit_with_mass_search(problem: LeastSquaresProblem, initial_fit: FitResult, b
 
 
 def search_rope_mass(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:
-    """The fit, or a better one with another mass."""
+    """The fit, or a better one from another mass of the rope."""
     start = _start_at_better_mass(problem, fitted, base)
     if start is None:
         return fitted
-    return min(fitted, gauss_newton(problem, fitted.hypothesis, start, base, fitted.chi_square), key=lambda one: one.chi_square)
+    other = gauss_newton(problem, fitted.hypothesis, start, base, fitted.chi_square)
+    return min(fitted, other, key=lambda one: one.chi_square)
+
+
+def fits_at_masses(
+    problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint, masses: Sequence[float], coarse: float = 1.0
+) -> list[tuple[Floats, Predictions, Solution]]:
+    """The model at other masses of the rope: coefficients (k,), predictions, and all coefficients refitted linearly.
+
+    `masses` are logarithms of factors; the derivatives are those of `initial_fit`. Masses at which the simulation fails are
+    left out.
+    """
+    at_mass = np.arange(len(initial_fit.coefficients)) == MASS
+    tried = [np.where(at_mass, mass, initial_fit.coefficients) for mass in masses]
+    predicted = problem.attempts(*(point_at(initial_fit.hypothesis, list(x), base) for x in tried), coarse=coarse)
+    return [
+        (x, one, _refit_linearly(problem, initial_fit, one, x))
+        for x, one in zip(tried, predicted, strict=True)
+        if one is not None
+    ]
+
+
+def _start_at_better_mass(problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint) -> Floats | None:
+    """Coefficients (k,) with a better mass of the rope; None where no other mass promises a sufficient improvement."""
+    current = float(initial_fit.coefficients[MASS])
+    here = _refit_linearly(problem, initial_fit, initial_fit.predictions, initial_fit.coefficients)
+    if here.chi_square < MASS_SEARCH.adequate * len(problem.data):
+        return None
+    tried = fits_at_masses(problem, initial_fit, base, _mass_grid(current), coarsening_factor(problem.campaign.model))
+    found = {float(x[MASS]): solution for x, _, solution in tried}
+    best = min(found, key=lambda mass: found[mass].chi_square, default=current)
+    if current not in found or found[best].chi_square > MASS_SEARCH.min_improvement * found[current].chi_square:
+        return None
+    return found[best].coefficients
+
+
+def _mass_grid(current: float) -> list[float]:
+    """The current mass and grid points within reach of the data sheet's, as logarithms of factors."""
+    steps = int(2.0 * MASS_SEARCH.reach / MASS_SEARCH.spacing)
+    grid = [(k, current + MASS_SEARCH.spacing * k) for k in range(-steps, steps + 1)]
+    return [mass for k, mass in grid if k == 0 or abs(mass) <= MASS_SEARCH.reach]
+
+
+def _refit_linearly(problem: LeastSquaresProblem, initial_fit: FitResult, predictions: Predictions, x: Floats) -> Solution:
+    """All coefficients refitted about x (k,) with the derivatives of `initial_fit`."""
+    return solve_in_scale(problem.residual(predictions), initial_fit.jacobian, fit_directions(initial_fit.hypothesis), x)

@@ -1,7 +1,8 @@
-"""What a hypothesis is worth: how little it misses, less its price, less how far it strains what data sheets say.
+"""Score of a model: log likelihood, less a penalty for its complexity and the cost of its plant parameters under their priors.
 
-Scores compare misfits as ratios, as if LOOKS independent looks had been taken: the discrepancy of a model is one and the
-same in thousands of samples, which a plain likelihood would count as evidence each.
+Scores compare chi-squares as ratios, as if a campaign were `SCORE.effective_samples` independent samples with unknown scale:
+the discrepancy of a model is the same in thousands of samples, each of which a plain likelihood would count as evidence.
+With the penalty of about half the logarithm of that number for each parameter it is a BIC (Schwarz 1978).
 """
 
 from collections.abc import Sequence
@@ -15,28 +16,27 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..settings import SCORE
 
 
-def log_score(chi_square: float, count: int, complexity_penalty: float = 0.0) -> float:
-    """Score of a misfit to `count` data: log likelihood of LOOKS independent looks whose scale is free, less its price."""
-    return -0.5 * SCORE.effective_samples * log(max(chi_square / count, SCORE.adequate)) - complexity_penalty
+def log_score(chi_square: float, count: int, penalty: float = 0.0) -> float:
+    """Logarithm of the score of a chi-square of `count` data: -n/2 log(chi^2 / count) less `penalty`, n effective samples."""
+    return -0.5 * SCORE.effective_samples * log(max(chi_square / count, SCORE.adequate)) - penalty
 
 
 def complexity_penalty(hypothesis: Hypothesis, alternatives: int) -> float:
-    """What the score of a hypothesis is lowered by for all that was free to choose."""
-    turns = sum(len(part.phase_runs) for part in hypothesis.parts or (hypothesis,))
-    return (
-        SCORE.parameter_penalty * (1 + len(hypothesis.directions) - turns) + SCORE.run_phase_penalty * turns + log(alternatives)
-    )
+    """Penalty for the parameters of a hypothesis, for the phases of single runs, and for the choice among `alternatives`."""
+    phases = sum(len(part.phase_runs) for part in hypothesis.parts or (hypothesis,))
+    parameters = 1 + len(hypothesis.directions) - phases
+    return SCORE.parameter_penalty * parameters + SCORE.run_phase_penalty * phases + log(alternatives)
 
 
 def prior_cost(coefficients: Sequence[float] | NDArray[np.float64]) -> float:
-    """What a score is lowered by for a plant off its data sheets, minus the logarithm of Student's t; plant coefficients first.
+    """Cost of plant parameters away from their data sheets: negative logarithm of Student's t; coefficients of the plant first.
 
-    A load cell that shows an eighth too little is no sheave that is an eighth lighter, though both fit as well.
+    A load cell that reads an eighth too low must not be explained by a sheave that is an eighth lighter, which fits as well.
     """
     squares = [(float(c) / one.prior) ** 2 for c, one in zip(coefficients, PLANT_PARAMETERS, strict=False)]
     return 0.5 * (SCORE.prior_degrees + 1.0) * sum(log1p(square / SCORE.prior_degrees) for square in squares)
 
 
 def penalised_chi_square(chi_square: float, cost: float) -> float:
-    """The misfit, raised as a cost lowers its score."""
+    """Chi-square that has without a penalty the score of `chi_square` with the penalty `cost`."""
     return chi_square * exp(2.0 * cost / SCORE.effective_samples)

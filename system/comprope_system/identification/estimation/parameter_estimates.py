@@ -1,4 +1,4 @@
-"""Fitted numbers as a person reads them: values with their uncertainty, and the model that has them."""
+"""Parameter estimates of a fit in SI units with standard errors and confidence intervals, and the fitted model."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ from .weighted_least_squares import scale_of
 
 @dataclass(frozen=True)
 class Estimate:
-    """A fitted value [SI], its standard deviation, the bounds of its 95 % interval, and what the file said."""
+    """Estimate [SI] of a model parameter: value, standard error, 95 % interval, and the value in the model file."""
 
     value: float
     standard_error: float
@@ -31,7 +31,7 @@ class Estimate:
     before: float | None = None
 
     def formatted(self) -> str:
-        """The value with its standard deviation, to as many digits as make sense."""
+        """Value and standard error as text, to the digits that the standard error supports."""
         if not isfinite(self.standard_error) or self.standard_error <= 0.0:
             return f"{self.value:.4g}"
         if abs(self.value) < 1e-3 * self.standard_error:
@@ -40,33 +40,39 @@ class Estimate:
         return f"{self.value:.{min(max(digits, 2), 6)}g} ± {self.standard_error:.2g}"
 
     def to_json(self) -> dict[str, float | None]:
-        """Value, standard deviation and 95 % interval."""
-        return {"value": self.value, "deviation": self.standard_error, "low": self.low, "high": self.high, "before": self.before}
+        """Value, standard error and 95 % interval; `deviation` is the former name of `standard_error`."""
+        return {
+            "value": self.value,
+            "deviation": self.standard_error,
+            "standard_error": self.standard_error,
+            "low": self.low,
+            "high": self.high,
+            "before": self.before,
+        }
 
 
 def standard_error_scale(fitted: FitResult, count: int) -> float:
-    """By how much standard deviations are widened: a model that misses the data knows its parameters less well.
+    """Factor of standard errors over those of white noise: sqrt(reduced chi-square * count / effective samples), each at least 1.
 
-    So does one that misses them by a discrepancy which is one and the same in thousands of samples: they count as LOOKS, as in
-    a score.
+    A discrepancy is the same in thousands of samples, so a campaign counts as `SCORE.effective_samples`, as in the score.
     """
     return float(np.sqrt(scale_of(fitted.chi_square, count) * max(1.0, count / SCORE.effective_samples)))
 
 
 def effect_estimates(fitted: FitResult, scale: float = 1.0) -> dict[str, Estimate]:
-    """Every value that the fit's effects set, with its uncertainty, by its key in the model file."""
+    """Estimates of all parameters of the fitted effects by model key; `scale` multiplies standard errors."""
     found: dict[str, Estimate] = {}
     at = len(PLANT_PARAMETERS)
     for part, own in fitted.hypothesis.split_coefficients(fitted.effect_coefficients) if fitted.hypothesis else []:
         covariance = scale**2 * fitted.covariance[at : at + len(own), at : at + len(own)]
         at += len(own)
         values = part.parameters(own)
-        found |= {key: _value(key, value, _standard_error(part, own, covariance, key)) for key, value in values.items()}
+        found |= {key: _estimate(key, value, _standard_error(part, own, covariance, key)) for key, value in values.items()}
     return found
 
 
 def _standard_error(part: Hypothesis, own: Sequence[float], covariance: NDArray[np.float64], key: str) -> float:
-    """Standard deviation of a value by the derivatives of it by the coefficients, to first order."""
+    """Standard error of a parameter by linear error propagation from the coefficients' covariance."""
     by = np.array([one.changes.get(key, 0.0) for one in part.directions])
     if part.polar and key in part.polar:
         (c, s), length = own[:2], max(hypot(*own[:2]), 1e-300)
@@ -75,7 +81,7 @@ def _standard_error(part: Hypothesis, own: Sequence[float], covariance: NDArray[
     return float(np.sqrt(max(by @ covariance @ by, 0.0)))
 
 
-def _value(key: str, value: float, standard_error: float) -> Estimate:
+def _estimate(key: str, value: float, standard_error: float) -> Estimate:
     declared = _declared(key)
     low, high = (declared.minimum, declared.maximum) if declared else (-float("inf"), float("inf"))
     reach = ESTIMATES.confidence_quantile * standard_error
@@ -95,7 +101,7 @@ def _declared(key: str) -> Quantity | None:
 
 
 def plant_estimates(campaign: Campaign, fitted: FitResult, scale: float = 1.0) -> dict[str, Estimate]:
-    """The refitted plant by model key; values of the model file, which a run may replace."""
+    """Estimates of the plant parameters by model key; runs may replace some of them. `scale` multiplies standard errors."""
     base, found = values_of(campaign.model) | {CLOCK: 0.0}, {}
     for k, one in enumerate(PLANT_PARAMETERS):
         c, standard_error = float(fitted.coefficients[k]), scale * float(fitted.covariance[k, k]) ** 0.5
@@ -110,12 +116,12 @@ def plant_estimates(campaign: Campaign, fitted: FitResult, scale: float = 1.0) -
 
 
 def keys_set_by_runs(campaign: Campaign) -> set[str]:
-    """Model keys that some run replaces: a model file cannot change them."""
+    """Model keys that some run sets, so that the model file's value has no effect there."""
     return {key for run in campaign.runs for key in run.changes}
 
 
 def fitted_model(campaign: Campaign, fitted: FitResult) -> RopeModel:
-    """The model with the fitted plant and effects; what runs replace stays as the file has it, and clocks are no model's."""
+    """Model with the fitted plant and effects; parameters that runs set keep the file's values, and the clock is no parameter."""
     replaced = keys_set_by_runs(campaign) | {CLOCK}
     plant = {key: one.value for key, one in plant_estimates(campaign, fitted).items() if key not in replaced}
     return with_changes(campaign.model, plant | dict(fitted.point.effects), "fit")

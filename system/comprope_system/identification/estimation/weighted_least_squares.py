@@ -1,4 +1,4 @@
-"""The weighed misfit of a campaign: whitened data, predictions and directions, and bounded fits of coefficients."""
+"""Weighted least squares on the whitened channels of a campaign: the problem, and bounded linear estimates with priors."""
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor, Future
@@ -22,9 +22,9 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LeastSquaresProblem:
-    """Some runs of a campaign, binned and weighed. `data` (N,) is whitened; its expected square is N.
+    """Least-squares problem of some runs: `data` (N,) are whitened; with the right model chi-square is about N.
 
-    `held` are plant parameters that stay as runs state them, `ruled_out` effects that are not asked about.
+    `held` are plant parameters that stay as the model file or the run states them, `ruled_out` effects that are not considered.
     """
 
     campaign: Campaign
@@ -36,12 +36,12 @@ class LeastSquaresProblem:
     ruled_out: frozenset[str] = frozenset()
 
     def with_held_fixed(self, point: ParameterPoint) -> ParameterPoint:
-        """The point without the plant parameters that are held."""
+        """The point with held plant parameters at their stated values."""
         return replace(point, plant={name: value for name, value in point.plant.items() if name not in self.held})
 
     @cached_property
     def rows_of_runs(self) -> NDArray[np.bool_]:
-        """Which data are of which run: (runs, N)."""
+        """Which data belong to which run: (runs, N)."""
         files = np.repeat([one.run for one in self.whitened_channels], [len(one.data) for one in self.whitened_channels])
         return np.array([files == run.file for run in self.runs])
 
@@ -51,12 +51,12 @@ class LeastSquaresProblem:
         return max(float(run.time[-1] - run.time[0]) for run in self.runs)
 
     def predictions(self, *points: ParameterPoint) -> list[Predictions]:
-        """The model's channels at some points, computed side by side."""
+        """Predictions at some points, computed in parallel."""
         jobs = [submit_replays(self.campaign, self.runs, self.with_held_fixed(point), self.executor) for point in points]
         return [collect_predictions(self.runs, some) for some in jobs]
 
     def attempts(self, *points: ParameterPoint, coarse: float = 1.0) -> list[Predictions | None]:
-        """As `predictions`, with elements and steps `coarse` times as long; None for points that cannot be simulated."""
+        """As `predictions`, with elements and time steps `coarse` times as long; None where the simulation fails."""
         jobs = [submit_replays(self.campaign, self.runs, self.with_held_fixed(point), self.executor, coarse) for point in points]
         return [self._attempted(some) for some in jobs]
 
@@ -67,21 +67,21 @@ class LeastSquaresProblem:
             return None
 
     def whitened(self, predictions: Mapping[tuple[str, str], Floats]) -> Floats:
-        """Predictions (N,) in the units of `data`."""
+        """Predictions (N,), whitened as `data` are."""
         return stack(self.whitened_channels, predictions)
 
     def residual(self, predictions: Mapping[tuple[str, str], Floats]) -> Floats:
-        """What predictions leave of `data` (N,)."""
+        """Whitened residual (N,): data less predictions."""
         return self.data - self.whitened(predictions)
 
     def column(self, values: Mapping[tuple[str, str], Floats]) -> Floats:
-        """Like `whitened`, for some channels only: zero for the others."""
-        none = {(one.run, one.column): np.zeros(len(one.of)) for one in self.whitened_channels}
-        return stack(self.whitened_channels, none | dict(values))
+        """As `whitened` for some channels only, with zeros for the others (N,)."""
+        zeros = {(one.run, one.column): np.zeros(len(one.bin_of)) for one in self.whitened_channels}
+        return stack(self.whitened_channels, zeros | dict(values))
 
 
 def build_problem(campaign: Campaign, runs: Sequence[Run], executor: Executor, nominal: Predictions) -> LeastSquaresProblem:
-    """Weigh the runs; bins that a sensor does not see in the nominal prediction are left out."""
+    """Whiten the channels of some runs; samples that are out of view in the nominal prediction are left out."""
     whitened_channels = []
     for run in runs:
         measured = relative_to_rest(run.values, run, campaign.channels)
@@ -95,10 +95,7 @@ def build_problem(campaign: Campaign, runs: Sequence[Run], executor: Executor, n
 
 @dataclass(frozen=True)
 class Solution:
-    """Coefficients of directions, the cost (misfit and priors in its scale), and misfit alone.
-
-    `covariance` (k, k) is that of the coefficients, with the discrepancy as if it were noise.
-    """
+    """Linear estimate: coefficients (k,), cost (chi-square plus scaled prior penalty), chi-square, and covariance (k, k)."""
 
     coefficients: Floats
     cost: float
@@ -107,9 +104,10 @@ class Solution:
 
 
 def solve(residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats, scale: float = 1.0) -> Solution:
-    """Most likely coefficients x of residual = matrix @ (x - start) within bounds, given their priors.
+    """Most probable coefficients x (k,) of residual = matrix (x - start) + e within bounds, with normal priors.
 
-    `scale` is what the squares of the residual stand for: with a model that misses much more than noise, priors count the more.
+    Minimises |residual - matrix (x - start)|^2 + scale |x / prior|^2. `scale` is the mean square of e: a model with a large
+    error lends its priors more weight.
     """
     prior = np.array([one.prior for one in directions])
     rows = np.vstack([matrix, np.diag(scale**0.5 / prior)])
@@ -124,11 +122,11 @@ def solve(residual: Floats, matrix: Floats, directions: Sequence[Direction], sta
 
 
 def solve_in_scale(residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats) -> Solution:
-    """As `solve`, in the scale of what is left even so."""
+    """As `solve`, with the mean square of the residual that a first estimate leaves as `scale`."""
     sharp = solve(residual, matrix, directions, start)
     return solve(residual, matrix, directions, start, scale_of(sharp.chi_square, len(residual)))
 
 
 def scale_of(chi_square: float, count: int) -> float:
-    """What the squares of a residual stand for: noise, or whatever is more."""
+    """Reduced chi-square of `count` data, at least 1: the mean square of the residual."""
     return max(1.0, chi_square / max(count, 1))
