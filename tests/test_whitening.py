@@ -5,10 +5,10 @@ import pytest
 
 from comprope_system.identification.data.campaign import Channel, Run
 from comprope_system.identification.data.whitening import (
-    contradicted,
+    is_contradicted,
+    noise_from_differences,
     outliers,
     sample_noise,
-    spread_of_steps,
     stack,
     whiten_channel,
 )
@@ -124,13 +124,13 @@ def test_a_short_rest_contradicts_nothing() -> None:
     assert sample_noise(run(), channel(), value) == pytest.approx(1e-3, rel=1e-12)
 
 
-def test_the_spread_of_steps_is_the_deviation_of_white_noise() -> None:
+def test_the_noise_from_differences_is_the_deviation_of_white_noise() -> None:
     noise = np.random.default_rng(2).normal(size=20000)
     # A median of 2e4 steps is known to 1 %; neither a drift nor outliers count.
-    assert spread_of_steps(noise) == pytest.approx(1.0, abs=0.03)
+    assert noise_from_differences(noise) == pytest.approx(1.0, abs=0.03)
     drifting = noise + 0.01 * np.arange(20000)
     drifting[::100] += 50.0
-    assert spread_of_steps(drifting) == pytest.approx(1.0, abs=0.05)
+    assert noise_from_differences(drifting) == pytest.approx(1.0, abs=0.05)
 
 
 @pytest.mark.parametrize(
@@ -138,7 +138,7 @@ def test_the_spread_of_steps_is_the_deviation_of_white_noise() -> None:
 )
 def test_what_contradicts_a_stated_noise(seen: float, expected: bool) -> None:
     """With 400 samples: factors of 1.4 (1 + 2.4 / 20) = 1.568 either way, and less than a fifth may be coarse digits."""
-    assert contradicted(1.0, seen, 400) is expected
+    assert is_contradicted(1.0, seen, 400) is expected
 
 
 def test_outliers_are_six_deviations_from_the_running_median() -> None:
