@@ -21,26 +21,26 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 app = typer.Typer(add_completion=False, rich_markup_mode="markdown", pretty_exceptions_enable=False)
 
 
-ALLOW_CODE = Annotated[bool, typer.Option("--allow-code", help="Run the Python files of own effects that a model names.")]
+ALLOW_CODE = Annotated[bool, typer.Option("--allow-code", help="Allow a model file to run Python files of own effects.")]
 
 
 @app.callback(invoke_without_command=True)
 def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False) -> None:
-    """How an elevator's compensation ropes swing: simulate a trip, and compare it with what was measured.
+    """Lateral vibration of elevator compensation ropes: simulation, comparison with measurements, diagnosis of missing effects.
 
-    Begin with `comprope simulate tower50 --plot trip.png`. Wherever a command takes
-    MODEL.toml, the name of a preset does too: tower50, tower50_light, building200.
+    First example: `comprope simulate tower50 --plot trip.png`. For MODEL.toml every command also accepts the name of a
+    preset: tower50, tower50_light, building200.
     """
     context.with_resource(consent.giving(allow_code))
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
 
 
-PANELS = {  # of the help, commands in the order in which they are met
+PANELS = {  # of the help text, with commands in the order in which they are typically used
     "Simulate": ("simulate", "modes"),
-    "Set beside measurements": ("compare", "diagnose", "add", "journey"),
-    "Choose": ("tune", "design"),
-    "Check": ("verify", "study"),
+    "Compare with measurements": ("compare", "diagnose", "add", "journey"),
+    "Design and tuning": ("tune", "design"),
+    "Verification": ("verify", "study"),
 }
 
 

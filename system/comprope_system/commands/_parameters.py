@@ -1,4 +1,4 @@
-"""Arguments and options that several commands have, and commands whose options are grouped in dataclasses."""
+"""Arguments and options shared by several commands, and commands with options grouped in dataclasses."""
 
 import inspect
 from collections.abc import Callable
@@ -12,14 +12,14 @@ MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or
 SET = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.mass=90. Repeatable.")]
 CAMPAIGN = Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml, or that file.")]
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result.")]
-REPORT = Annotated[Path | None, typer.Option(metavar="F.html", help="Write a page with pictures.")]
+REPORT = Annotated[Path | None, typer.Option(metavar="F.html", help="Write an HTML report with figures.")]
 NEW_MODEL = Annotated[Path | None, typer.Option(metavar="MODEL.toml", help="Write the new model.")]
-JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Processes; default one for each core.")]
+JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Number of processes; default one per core.")]
 EXECUTOR = Annotated[str | None, typer.Option(metavar="dask://HOST:PORT", help="Run on a Dask cluster.")]
 
 
 def with_options(command: Callable[..., None]) -> Callable[..., None]:
-    """The command as typer reads it: a parameter whose type is a dataclass is replaced by one for each of its fields."""
+    """The command in the form typer expects: a parameter whose type is a dataclass is replaced by one for each of its fields."""
     groups: dict[str, Any] = {name: kind for name, kind in get_type_hints(command).items() if is_dataclass(kind)}
     if not groups:
         return command

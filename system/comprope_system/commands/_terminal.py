@@ -1,4 +1,4 @@
-"""What commands show on the terminal and write to files."""
+"""Terminal output and output files of the commands."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def progress_display() -> "Iterator[Report]":
-    """On a terminal, what is being computed, how much of it is done, and for how long; elsewhere nothing."""
+    """Progress bar on a terminal: current task, completed fraction and elapsed time; otherwise nothing."""
     console = Console(file=sys.stderr)
     parts = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     # An FMU's messages on standard error are captured while it is called, so the display leaves the streams alone.
@@ -32,21 +32,21 @@ def progress_display() -> "Iterator[Report]":
 
 @dataclass(frozen=True)
 class OutputFile:
-    """A file that a command is asked to write, None if it is not, and its kind, which demands an ending of its name."""
+    """An optional output file of a command, and its kind, which determines the accepted extensions."""
 
     path: Path | None
     kind: str | None = None
 
 
 def require_files(*files: OutputFile) -> None:
-    """Refuse files that could not be written, before the long computation."""
+    """Raise `InputError` for files that cannot be written, before a long computation."""
     for one in files:
         if one.path:
             require_writable(one.path, one.kind)
 
 
 def finish(result: "Result", *files: tuple[Path | None, Callable[[Path], None]]) -> None:
-    """Print the result's summary, then write each file asked for, whole or not at all, and name it."""
+    """Print the summary of the result, then write each output file, completely or not at all, and print its name."""
     sys.stdout.write(f"{result.summary()}\n")
     for path, save in files:
         if path:

@@ -1,4 +1,4 @@
-"""`comprope design`: the least sheave, and where to put sensors."""
+"""`comprope design`: smallest sheave mass and sensor heights."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,21 +12,21 @@ from ._parameters import EXECUTOR, JOBS
 from ._terminal import OutputFile, finish, progress_display, require_files
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, building200.")]
-DRIVE = Annotated[Path | None, typer.Option(metavar="D.toml", help="How the car moves; default the preset's own limits.")]
-LIMIT = Annotated[float, typer.Option(metavar="MM", min=1e-3, help="Largest swing that is allowed, during and after a trip.")]
-FLOORS = Annotated[int, typer.Option(metavar="N", min=2, max=60, help="Floors, evenly spaced; all trips between them count.")]
-AMPLITUDE = Annotated[float, typer.Option(metavar="MM", min=0.0, help="Sway of the building at the top landing.")]
-PERIOD = Annotated[float | None, typer.Option(metavar="S", min=0.1, help="Period of that sway; without it there is none.")]
-DURATION = Annotated[float, typer.Option(metavar="S", min=1.0, max=3600.0, help="How long the building sways.")]
+DRIVE = Annotated[Path | None, typer.Option(metavar="D.toml", help="Drive file; default that of the preset.")]
+LIMIT = Annotated[float, typer.Option(metavar="MM", min=1e-3, help="Limit of the swing during and after a trip.")]
+FLOORS = Annotated[int, typer.Option(metavar="N", min=2, max=60, help="Number of equally spaced floors for the trips.")]
+AMPLITUDE = Annotated[float, typer.Option(metavar="MM", min=0.0, help="Amplitude of the building sway at the top landing.")]
+PERIOD = Annotated[float | None, typer.Option(metavar="S", min=0.1, help="Period of the building sway; default no sway.")]
+DURATION = Annotated[float, typer.Option(metavar="S", min=1.0, max=3600.0, help="Duration of the building sway.")]
 SWAY_LIMIT = Annotated[
-    float | None, typer.Option(metavar="MM", min=1e-3, help="Largest swing in the sway; default: told, no limit.")
+    float | None, typer.Option(metavar="MM", min=1e-3, help="Limit of the swing under building sway; default none.")
 ]
-SENSORS = Annotated[int, typer.Option(metavar="N", min=1, max=20, help="How many sensors to place.")]
+SENSORS = Annotated[int, typer.Option(metavar="N", min=1, max=20, help="Number of sensors to place.")]
 SET = Annotated[
     list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.radius=0.3. Repeatable.")
 ]
-OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for page, pictures and result.json.")]
-JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result here too.")]
+OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for HTML page, figures and result.json.")]
+JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result to this file as well.")]
 
 
 STORE = "runs.jsonl"  # in that folder: results as they come
@@ -34,7 +34,7 @@ STORE = "runs.jsonl"  # in that folder: results as they come
 
 @dataclass(frozen=True)
 class Demands:
-    """What the design must keep."""
+    """Requirements of the design."""
 
     drive: DRIVE = None
     limit: LIMIT = 10.0
@@ -58,7 +58,7 @@ class Demands:
 
 @dataclass(frozen=True)
 class Work:
-    """Where it runs, and what is written."""
+    """Execution and output files."""
 
     out: OUT = Path("design")
     json: JSON = None
@@ -67,9 +67,9 @@ class Work:
 
 
 def design(model: MODEL, demands: Demands, work: Work) -> None:
-    """Find the least sheave weight that keeps the swing under a limit on all trips between floors and in a swaying building.
+    """Compute the smallest sheave mass that meets a limit of the swing on all trips between floors and under building sway.
 
-    Also the best heights for sensors, and a map of where the periods of rope, sway and trips meet.
+    Also computes sensor heights, and a map of resonances: natural periods of the rope against sway and trip durations.
     """
     from ..sheave_design.result import PAGE
 

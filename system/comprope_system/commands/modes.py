@@ -1,4 +1,4 @@
-"""`comprope modes`: natural periods and shapes of the suspended rope."""
+"""`comprope modes`: natural periods and mode shapes of the suspended rope."""
 
 from pathlib import Path
 from typing import Annotated
@@ -11,16 +11,16 @@ from ._parameters import MODEL, SET
 from ._terminal import OutputFile, finish, require_files
 
 CAR = Annotated[float, typer.Option(metavar="M", help="Height of the car above the bottom landing.")]
-COUNT = Annotated[int, typer.Option(metavar="N", min=1, max=200, help="How many modes, slowest first.")]
-PLOT = Annotated[Path | None, typer.Option(metavar="F.png", help="Draw the shapes; .pdf and .svg are fine too.")]
-JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write periods and shapes.")]
+COUNT = Annotated[int, typer.Option(metavar="N", min=1, max=200, help="Number of modes, longest period first.")]
+PLOT = Annotated[Path | None, typer.Option(metavar="F.png", help="Plot the mode shapes; .png, .pdf or .svg.")]
+JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write periods and mode shapes.")]
 
 
 def modes(model: MODEL, car: CAR = 0.0, count: COUNT = 10, changes: SET = None, plot: PLOT = None, json: JSON = None) -> None:
-    """Natural periods and shapes of the rope at rest, for any car position.
+    """Compute natural periods and mode shapes of the rope for a car position.
 
-    Small vibration about the static equilibrium: the rope sticks to a sheave that is free to turn and to rise. Beside each
-    lateral mode stands the period of an ideal hanging string.
+    Small vibration about the static equilibrium: the rope sticks to a sheave that is free to turn and to rise. For each
+    lateral mode the period of an ideal hanging string is given for comparison.
     """
     require_files(OutputFile(plot, "picture"), OutputFile(json))
     result = comprope_system.modes(model, car, count, changes=changes)

@@ -11,28 +11,28 @@ import comprope_system
 from ._parameters import MODEL, SET
 from ._terminal import OutputFile, finish, progress_display, require_files
 
-FROM = Annotated[float | None, typer.Option("--from", metavar="M", help="Where the car starts; default the bottom landing.")]
-TO = Annotated[float | None, typer.Option("--to", metavar="M", help="Where the car goes; default the top landing.")]
+FROM = Annotated[float | None, typer.Option("--from", metavar="M", help="Start position of the car; default the bottom landing.")]
+TO = Annotated[float | None, typer.Option("--to", metavar="M", help="Destination of the car; default the top landing.")]
 SPEED = Annotated[float | None, typer.Option(metavar="M/S", help="Rated speed.")]
 ACCELERATION = Annotated[float | None, typer.Option(metavar="M/S2", help="Largest acceleration.")]
 JERK = Annotated[float | None, typer.Option(metavar="M/S3", help="Largest jerk.")]
-DRIVE = Annotated[Path | None, typer.Option(metavar="FILE.toml", help="Parameters of the drive, in tables as the FMU has them.")]
-TIME = Annotated[float | None, typer.Option(metavar="S", help="How long to simulate; default the trip and 8 s at rest.")]
+DRIVE = Annotated[Path | None, typer.Option(metavar="FILE.toml", help="Drive file: parameters of the drive, as in its FMU.")]
+TIME = Annotated[float | None, typer.Option(metavar="S", help="Simulated time; default the trip and 8 s at rest.")]
 STEP = Annotated[float, typer.Option(metavar="S", help="Communication step of the co-simulation.")]
-CAR = Annotated[Path | None, typer.Option(metavar="RUN.csv", help="Move the car as measured, and draw what was measured beside.")]
-DIRECT = Annotated[bool, typer.Option("--direct", help="Step the models in this process instead of as FMUs; same numbers.")]
-ONE_WAY = Annotated[bool, typer.Option("--one-way", help="The drive does not feel the rope.")]
-OUT = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write every communication step as a row.")]
-PLOT = Annotated[Path | None, typer.Option(metavar="FILE.png", help="Draw the trip; .pdf and .svg are fine too.")]
+CAR = Annotated[Path | None, typer.Option(metavar="RUN.csv", help="Prescribe the measured motion; plot measured signals too.")]
+DIRECT = Annotated[bool, typer.Option("--direct", help="Simulate in this process instead of with FMUs; same numbers.")]
+ONE_WAY = Annotated[bool, typer.Option("--one-way", help="One-way coupling: no forces of the rope on the drive.")]
+OUT = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the results, one row per communication step.")]
+PLOT = Annotated[Path | None, typer.Option(metavar="FILE.png", help="Plot the trip; .png, .pdf or .svg.")]
 REPORT = Annotated[
     Path | None,
-    typer.Option(metavar="F.html", help="Write a page that plays the trip, and shows its figures; steps as --direct."),
+    typer.Option(metavar="F.html", help="Write an HTML page with an animation of the trip and plots; implies --direct."),
 ]
 
 
 @dataclass(frozen=True)
 class MotionOptions:
-    """How the car moves."""
+    """Motion of the car."""
 
     start: FROM = None
     end: TO = None
@@ -44,7 +44,7 @@ class MotionOptions:
 
 @dataclass(frozen=True)
 class RunOptions:
-    """What is simulated, and how."""
+    """Options of the simulation."""
 
     time: TIME = None
     step: STEP = 0.01
@@ -56,7 +56,7 @@ class RunOptions:
 
 @dataclass(frozen=True)
 class Files:
-    """What is written."""
+    """Output files."""
 
     out: OUT = None
     plot: PLOT = None
@@ -64,10 +64,10 @@ class Files:
 
 
 def simulate(model: MODEL, motion: MotionOptions, options: RunOptions, files: Files) -> None:
-    """Co-simulate drive and rope through one trip of the car.
+    """Co-simulate drive and rope for one trip of the car.
 
-    The CSV file has a column for each sensor of the model: lateral displacement in metres, outward,
-    empty where the rope's end has passed the sensor. All other columns are in SI units too.
+    The CSV file has a column for each sensor of the model: lateral displacement in metres, positive outward,
+    empty while the rope's end has passed the sensor. All columns are in SI units.
     """
     require_files(OutputFile(files.out), OutputFile(files.plot, "picture"), OutputFile(files.report, "page"))
     with progress_display() as progress:

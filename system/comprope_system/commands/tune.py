@@ -1,4 +1,4 @@
-"""`comprope tune`: a controller chosen against the rope."""
+"""`comprope tune`: optimisation of trip profile, input shaper and servo gains."""
 
 import math
 from dataclasses import dataclass
@@ -15,24 +15,24 @@ from ._terminal import OutputFile, finish, progress_display, require_files
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, building200.")]
 DRIVE = Annotated[
-    Path | None, typer.Option(metavar="D.toml", help="Present drive; its limits are kept. Default the preset's own.")
+    Path | None, typer.Option(metavar="D.toml", help="Present drive, whose limits are kept; default that of the preset.")
 ]
 TRIP = Annotated[
-    list[str] | None, typer.Option(metavar="FROM:TO", help="A trip in metres, as 0:22. Repeatable; default six trips.")
+    list[str] | None, typer.Option(metavar="FROM:TO", help="A trip in metres, e.g. 0:22. Repeatable; default six trips.")
 ]
-TIMES = Annotated[str, typer.Option(metavar="F,F,...", help="Travel times of the front, over the present one.")]
-EXTRA = Annotated[float, typer.Option(metavar="SHARE", min=0.0, max=2.0, help="Travel time that the chosen controller may add.")]
+TIMES = Annotated[str, typer.Option(metavar="F,F,...", help="Travel times to evaluate, relative to the present one.")]
+EXTRA = Annotated[float, typer.Option(metavar="SHARE", min=0.0, max=2.0, help="Accepted relative increase of travel time.")]
 LIMIT = Annotated[
-    float | None, typer.Option(metavar="MM", min=1e-3, help="Instead of --extra: the fastest trip that swings less.")
+    float | None, typer.Option(metavar="MM", min=1e-3, help="Instead of --extra: choose the fastest trip with less swing.")
 ]
 WEIGHT = Annotated[
-    float, typer.Option(metavar="W", min=0.0, max=1.0, help="What the swing after the trip counts beside that during it.")
+    float, typer.Option(metavar="W", min=0.0, max=1.0, help="Weight of the swing after the trip relative to that during it.")
 ]
 SPREAD = Annotated[
-    float, typer.Option(metavar="SHARE", min=0.0, max=0.5, help="Be prepared for a sheave so much lighter or heavier.")
+    float, typer.Option(metavar="SHARE", min=0.0, max=0.5, help="Relative deviation of the sheave mass to be robust against.")
 ]
-OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for page, pictures, result.json and *.drive.toml.")]
-JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result here too.")]
+OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for HTML page, figures, result.json and *.drive.toml.")]
+JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result to this file as well.")]
 
 
 STORE = "runs.jsonl"  # in that folder: results as they come
@@ -40,7 +40,7 @@ STORE = "runs.jsonl"  # in that folder: results as they come
 
 @dataclass(frozen=True)
 class Wishes:
-    """What is tuned, and what counts."""
+    """Trips and objective."""
 
     drive: DRIVE = None
     trip: TRIP = None
@@ -54,7 +54,7 @@ class Wishes:
 
 @dataclass(frozen=True)
 class Work:
-    """Where it runs, and what is written."""
+    """Execution and output files."""
 
     out: OUT = Path("tuning")
     json: JSON = None
@@ -63,10 +63,10 @@ class Work:
 
 
 def tune(model: MODEL, wishes: Wishes, work: Work) -> None:
-    """Choose profile, shaper and servo gains: the least swing of the rope for a travel time, or the least time for a swing.
+    """Optimise trip profile, input shaper and servo gains: least swing for a travel time, or least travel time for a swing.
 
-    Speed, acceleration and jerk stay within the present drive's limits. Found on a small linear rope, judged on the full model,
-    and installed as FMUs. An interrupted run goes on where it stopped when it is started again with the same folder.
+    Speed, acceleration and jerk stay within the limits of the present drive. Candidates are found with a reduced linear model,
+    evaluated with the full model and validated with the FMUs. An interrupted run is resumed if started with the same folder.
     """
     from ..tuning.result import PAGE
 
@@ -87,7 +87,7 @@ def tune(model: MODEL, wishes: Wishes, work: Work) -> None:
 
 
 def read_times(text: str) -> list[float]:
-    """Travel times such as `1.05,1.2`, rising; raises `InputError` if one is none."""
+    """Travel times such as `1.05,1.2` in increasing order; raises `InputError` for invalid ones."""
     from ..tuning.workflow import MAX_TIME_FACTOR, SHORTEST
 
     try:

@@ -1,4 +1,4 @@
-"""`comprope verify`: checks of the numerics."""
+"""`comprope verify`: verification of the numerics."""
 
 from pathlib import Path
 from typing import Annotated
@@ -9,13 +9,13 @@ NAMES = Annotated[
     list[str] | None,
     typer.Argument(metavar="[NAME]...", help="reference, offset, periods, convergence, invariants; default all."),
 ]
-OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for page and figures.")]
+OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for HTML page and figures.")]
 
 
 def verify(names: NAMES = None, out: OUT = Path("verification")) -> None:
-    """Check the numerics against another program, closed forms, finer meshes and steps, symmetry and conservation.
+    """Verify the numerics: another program, closed-form solutions, mesh and step convergence, symmetry, conservation.
 
-    Writes one page with tables and figures; the exit status is 1 if a check fails.
+    Writes an HTML page with tables and figures; the exit status is 1 if a check fails.
     """
     from ..verification.workflow import run
 

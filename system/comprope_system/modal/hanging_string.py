@@ -1,7 +1,7 @@
-"""Natural periods of a hanging string whose tension grows with height: closed forms to judge the rope's modes by.
+"""Natural periods of a hanging string whose tension increases with height: closed-form solutions for comparison.
 
 A string of mass per length rho hangs with tension T0 at its lower end and T0 + rho g L at its upper end,
-both ends held sideways, without bending stiffness. With s = T / (rho g), the height above the point where
+both ends fixed laterally, without bending stiffness. With s = T / (rho g), the height above the point where
 the tension would vanish, its lateral shape of angular frequency w is a Bessel function of 2 w sqrt(s / g).
 """
 
@@ -63,10 +63,10 @@ class HangingString:
 
 
 def side_string(model: Base, car: float, side: str = "counterweight") -> HangingString:
-    """The string that stands for one side of the rope, car at `car` [m]: from the axle's height to the rope's end.
+    """The string equivalent to one side of the rope, car at `car` [m]: from the height of the axle to the end of the rope.
 
-    The axle carries its own weight and that of the rope wrapped round it. A stiff rope rolls on the groove, so
-    that its side turns about the axle: its height is where the string is held, whatever the bending stiffness.
+    The axle carries its own weight and that of the rope wrapped round it. A rope with bending
+    stiffness rolls on the groove, so that its side rotates about the axle: the string is fixed at this height.
     """
     shaft, rope, sheave = model.shaft, model.rope, model.sheave
     end = car if side == "car" else shaft.height - car

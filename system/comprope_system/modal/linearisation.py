@@ -1,14 +1,14 @@
-"""Small motions of the suspended rope: its stiffness and mass about the shape at rest.
+"""Linearisation of the suspended rope: stiffness and mass matrices about the static shape.
 
 The stiffness is the tangent that the time step uses: the block band of tension and bending, and the
-contact's blocks. Two decisions on the sheave:
+blocks of the contact. Assumptions about the sheave:
 
 - it is free: its height and its angle are unknowns, with its mass and its inertia;
-- the rope sticks to it. Regularised friction at rest is a damper that grips far harder than the rope's
-  slow motions pull, so that damper is taken here as a spring, `STICK` newtons for each N s/m. Rope and
-  sheave then turn together, as they do in small motions.
+- the rope sticks to it. Regularised friction is a strong damper at rest; for slow small vibration it
+  prevents slip, and is replaced by a spring of `STICK` N/m for each N s/m. Rope and
+  sheave then rotate together.
 
-Damping and the effects' own stiffness are left out.
+Damping and the stiffness of effects are neglected.
 """
 
 from dataclasses import dataclass
@@ -84,7 +84,7 @@ def _tangent(rope: CompensationRope, p: Floats, ck: float, cc: float) -> tuple[F
 
 @cache
 def _interpreted() -> dict[str, Any]:
-    """The kernels without effects, as plain functions of lists: run twice, they take less time than compiling them would."""
+    """The kernels without effects as interpreted Python functions on lists: faster than compilation for two calls."""
     modules = (effect_hooks, internal_forces, contact, equations_of_motion)
     names = {key: value for module in modules for key, value in vars(module).items()}
     for key, value in names.items():

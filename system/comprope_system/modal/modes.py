@@ -1,4 +1,4 @@
-"""Natural periods and shapes of the suspended rope, with the car anywhere in the shaft."""
+"""Natural periods and mode shapes of the suspended rope for a car position."""
 
 from dataclasses import dataclass
 from math import pi
@@ -20,7 +20,7 @@ SHARED = 0.1  # of the energy of one side on the other: the mode is of both
 
 @dataclass(frozen=True)
 class Mode:
-    """One natural motion.
+    """One natural mode.
 
     `place` is where most of its motion is: "car" or "counterweight" for a lateral swing of that side, "both" where
     equal sides share it, "sheave" for what moves along the rope. `half_waves` counts those of the swing on a side,
@@ -36,7 +36,7 @@ class Mode:
 
     @property
     def frequency(self) -> float:
-        """In Hz."""
+        """Natural frequency [Hz]."""
         return 1.0 / self.period
 
 
@@ -49,7 +49,7 @@ class Modes:
     modes: tuple[Mode, ...]
 
     def first(self, place: str = "counterweight", half_waves: int = 1) -> Mode:
-        """The mode of a side with so many half waves; raises `LookupError` if it was not asked for."""
+        """The mode of a side with this number of half waves; raises `LookupError` if it was not computed."""
         for mode in self.modes:
             if mode.place in (place, "both") and mode.half_waves == half_waves:
                 return mode
@@ -57,9 +57,9 @@ class Modes:
 
 
 def modes(model: Base, car: float, count: int = 10) -> Modes:
-    """The `count` slowest modes with the car at `car` [m] and the counterweight at its mirror height.
+    """The `count` modes of longest period with the car at `car` [m] and the counterweight at shaft height - `car`.
 
-    Raises `InputError` or `SimulationError` where the rope cannot hang there.
+    Raises `InputError` or `SimulationError` if there is no static equilibrium.
     """
     rope = CompensationRope(model)
     rope.settle(car, model.shaft.height - car)
@@ -107,6 +107,6 @@ def _place(rope: CompensationRope, motion: Floats, x: Floats) -> str:
 
 
 def _half_waves(values: Floats) -> int:
-    """Half waves of a shape: its changes of sign, small numbers left out, and one."""
+    """Number of half waves of a shape: its sign changes, without small values, plus one."""
     large = values[np.abs(values) > 0.02 * np.abs(values).max()]
     return 1 + int(np.count_nonzero(np.diff(np.sign(large))))

@@ -1,4 +1,4 @@
-"""The result of `comprope_system.modes`: natural periods and shapes, with text, table, picture and page."""
+"""The result of `comprope_system.modes`: natural periods and mode shapes, with summary, table, plot and HTML page."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,12 +41,12 @@ class ModesResult(Result, Modes):
         return side_string(self.model, self.car, mode.place).period(mode.half_waves) if mode.half_waves else None
 
     def headline(self) -> str:
-        """Number of modes, and the slowest period [s]."""
+        """Number of modes, and the longest period [s]."""
         slowest = max(one.period for one in self.modes)
         return f"{len(self.modes)} natural modes, the slowest of {slowest:.4f} s, with the car at {self.car:g} m"
 
     def summary(self) -> str:
-        """The modes as a table, the slowest first."""
+        """The modes as a table, longest period first."""
         lines = [f"{HEAD[0]:>11}  {HEAD[1]:>14}  {HEAD[2]:<14}  {HEAD[3]:>10}  {HEAD[4]:>10}"]
         lines += [
             f"{period:>11}  {frequency:>14}  {place:<14}  {waves:>10}  {string:>10}"
@@ -75,18 +75,18 @@ class ModesResult(Result, Modes):
         return pd.DataFrame(rows, columns=["period", "frequency", "place", "half_waves", "string_period"])
 
     def save_html(self, path: str | Path) -> None:
-        """Write a page with the table and the shapes, whole or not at all."""
+        """Write an HTML page with table and mode shapes, completely or not at all."""
         title = f"{self.model_name}: natural modes, car at {self.car:g} m"
         blocks: list[Block] = [Table(HEAD, self._rows()), Picture("modes", self.plot())]
         save_page(path, title, LEAD, [Section("modes", "Natural modes", blocks)])
 
     def save_plot(self, path: str | Path) -> None:
-        """Write the picture of the shapes as .png, .pdf or .svg, whole or not at all."""
+        """Write the plot of the mode shapes as .png, .pdf or .svg, completely or not at all."""
         with atomic_write(path) as temporary:
             self.plot().savefig(temporary, dpi=150)
 
     def plot(self) -> Figure:
-        """Shapes of the slowest lateral modes, car's side on the left."""
+        """Figure of the lateral mode shapes of longest period, car side on the left."""
         figure, axes = panels(2, height=4.2)
         lowest = int(np.argmin(self.heights))
         sides = {"car": slice(0, lowest), "counterweight": slice(lowest, None)}

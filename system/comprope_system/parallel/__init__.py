@@ -1,1 +1,1 @@
-"""Executors and sweeps: many simulations side by side, in processes or on a Dask cluster."""
+"""Executors and sweeps: many simulations in parallel, in processes or on a Dask cluster."""

@@ -1,4 +1,4 @@
-"""Where a sweep runs: in this process, in processes of this machine, or on a Dask cluster."""
+"""Executors for sweeps: this process, processes of this machine, or a Dask cluster."""
 
 import importlib
 import multiprocessing
@@ -19,9 +19,9 @@ def workers(
 ) -> Iterator[Executor | None]:
     """An executor of concurrent.futures: the one given, a Dask cluster's by its address dask://HOST:PORT, or `jobs` processes.
 
-    By default there is a process for each core; with `jobs` 1 there is no executor, and a sweep runs in this
-    process, unless a `fresh` one is asked for. Raises `InputError` for an address of another kind or where Dask is not installed,
-    `SimulationError` where nobody answers.
+    By default there is one process per core; with `jobs` 1 there is no executor, and a sweep runs in this
+    process, unless a `fresh` one is requested. Raises `InputError` for an invalid address or if Dask is not installed,
+    `SimulationError` if the scheduler does not answer.
     """
     if isinstance(executor, str):
         with _dask(executor) as cluster:

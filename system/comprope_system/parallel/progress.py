@@ -1,4 +1,4 @@
-"""Progress of a long computation: a function that its caller gives, called as the computation goes on."""
+"""Progress of a long computation: a callback provided by the caller."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Many independent runs at once, on any executor, that go on where they were interrupted.
+"""Sweep: many independent cases on any executor, resumable after an interruption.
 
 A sweep is a function of one case and a list of cases. Cases and results are what JSON can hold. Each
 result goes into a file of JSON lines as it comes, under a key made of the function's name, the case and
@@ -29,7 +29,7 @@ Task = Callable[[Case], Any]
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a case: its value, or why it failed."""
+    """Outcome of a case: its value, or the error message."""
 
     case: Case
     value: Any = None
@@ -106,7 +106,7 @@ def hash_of_files(paths: Sequence[Path], prefix: str = "") -> str:
 
 
 def _run(task: Task, cases: Mapping[str, Case], executor: Executor | None) -> Iterator[tuple[str, Outcome]]:
-    """Keys and outcomes as they come."""
+    """Keys and outcomes in order of completion."""
     if executor is None:
         for key, case in cases.items():
             yield key, attempt(task, case)
@@ -121,7 +121,7 @@ def _run(task: Task, cases: Mapping[str, Case], executor: Executor | None) -> It
 
 
 def attempt(task: Task, case: Case) -> Outcome:
-    """Run one case, on whatever machine."""
+    """Compute one case, on any machine."""
     try:
         return Outcome(case, task(case))
     except CompropeError as error:
@@ -129,7 +129,7 @@ def attempt(task: Task, case: Case) -> Outcome:
 
 
 def _read(store: Path) -> dict[str, Outcome]:
-    """Outcomes in a file by key, but for those that failed; a last line cut short by an interruption is ignored."""
+    """Outcomes in a file by key, except failed ones; a truncated last line is ignored."""
     try:
         lines = store.read_text(encoding="utf-8").splitlines() if store.exists() else []
     except (OSError, UnicodeDecodeError):
@@ -145,7 +145,7 @@ def _read(store: Path) -> dict[str, Outcome]:
 
 
 def _append(store: Path, key: str, outcome: Outcome) -> None:
-    """Add one line, begun on a line of its own, whatever an interruption left behind."""
+    """Append one line, after a newline if the file ends with a truncated line."""
     if not store.exists():
         require_writable(store)
     told = {"failed": outcome.failed} if outcome.failed else {"value": outcome.value}

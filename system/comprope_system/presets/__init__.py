@@ -1,4 +1,4 @@
-"""Models that come with the program: the paper's 50 m test tower, with nominal and light sheave, and its 200 m building."""
+"""Model files included with the program: the paper's 50 m test tower, with nominal and light sheave, and 200 m building."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ def names() -> list[str]:
 
 
 def model_path(name_or_path: str | Path) -> Path:
-    """The model file a user means: a file's path, else a preset's name.
+    """Path of a model file from a path or the name of a preset.
 
     Raises `InputError` if it is neither, with the nearest preset's name.
     """

@@ -1,4 +1,4 @@
-"""Models and drives as the public interface takes them: a file, a preset's name, or an object that is loaded already."""
+"""Reading of models and drives: from a file, the name of a preset, or a loaded object."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -27,7 +27,7 @@ def read_model(model: ModelInput, changes: Changes | None = None) -> RopeModel:
 
 
 def model_name(model: ModelInput) -> str:
-    """What pages call the model: the file or the preset that was given."""
+    """Name of the model in reports: the given file or preset."""
     return "model" if isinstance(model, RopeModel) else str(model)
 
 

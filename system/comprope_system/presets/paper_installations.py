@@ -1,4 +1,4 @@
-"""The paper's two installations, as far as its text states them, with the presets' values for the rest."""
+"""The two installations of the paper, with values of the presets where the paper states none."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -30,7 +30,7 @@ def building(name: str, changes: Mapping[str, Any] | None = None) -> RopeModel:
 
 
 def with_sheave(model: Base | str, mass: float) -> dict[str, float]:
-    """Changes that give a building a sheave of another mass [kg], its inertia in proportion: the same disc, lighter."""
+    """Changes that give a building a sheave of another mass [kg], with inertia in proportion."""
     sheave = (_loaded(model) if isinstance(model, str) else model).sheave
     return {"sheave.mass": mass, "sheave.inertia": sheave.inertia * mass / sheave.mass}
 
@@ -42,7 +42,7 @@ def limits(name: str, distance: float) -> dict[str, float]:
 
 
 def up(name: str, distance: float) -> SCurve:
-    """That trip."""
+    """The trip of a case."""
     return trip_of(**limits(name, distance))
 
 

@@ -1,1 +1,1 @@
-"""Design of a compensation rope: the least sheave for all trips and for the building's sway, and where to measure the rope."""
+"""Design of a compensation rope: smallest sheave mass for all trips and building sway, sensor heights."""

@@ -1,12 +1,12 @@
-"""Response of the rope of a parked car to building sway: the reduced model at standstill, in closed form.
+"""Response of the rope of a parked car to building sway: closed-form solution of the reduced model at standstill.
 
-The ends sway with the building, in proportion to the height above the axle; what counts is the rope's departure from the
-building. Mode k, of angular frequency w, answers the sway s = A sin(W t), begun at rest, by
+The ends move with the building, in proportion to the height above the axle; the swing is relative to the
+building. The response of mode k, of angular frequency w, to the sway s = A sin(W t), starting from rest, is
 
     q = F / (w^2 - W^2) (sin(W t) - (W / w) sin(w t)),   F = W^2 m_k A
 
-with m_k the mode's share of a straight line from axle to end, less what bends it (the line is no shape of rest of a rope whose
-tension grows with height). Without damping, so that at resonance the swing grows as long as the building sways.
+with m_k the component of the mode in a straight line from axle to end, minus what bends the line (the line is not an equilibrium
+shape if the tension increases with height). There is no damping, so that the swing at resonance grows with the duration.
 """
 
 from dataclasses import dataclass
@@ -35,12 +35,12 @@ class BuildingSway:
 
 
 def parked_departures(reduced: ReducedModel, sway: BuildingSway, car: float) -> dict[str, Floats]:
-    """The farthest departure from the building (places,) [m] at READ_POSITIONS of each side, car parked at `car` [m]."""
+    """Largest displacement relative to the building (places,) [m] at READ_POSITIONS of each side, car parked at `car` [m]."""
     return {side: _side(reduced, sway, float(reduced.length(side, np.array([car]))[0])) for side in SIDES}
 
 
 def worst_parked(reduced: ReducedModel, sway: BuildingSway, cars: Floats) -> tuple[float, float]:
-    """The farthest departure [m] over parked cars, and the height of that car [m]."""
+    """Largest displacement [m] over car positions, and that position [m]."""
     found = [max(float(one.max()) for one in parked_departures(reduced, sway, float(car)).values()) for car in cars]
     return max(found), float(cars[int(np.argmax(found))])
 

@@ -1,4 +1,4 @@
-"""The result of `comprope_system.design`: the least sheave, sensor positions, and natural periods against trips and sway."""
+"""The result of `comprope_system.design`: smallest sheave mass, sensor heights, and natural periods against trips and sway."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ PAGE, RESULT = "design.html", "result.json"
 
 @dataclass(frozen=True, repr=False)
 class DesignResult(Result):
-    """A sheave that keeps the swing under a limit, and sensors that see it.
+    """Sheave mass for a limit of the swing, and sensor heights.
 
     `sheave_mass` [kg] is the least for each rope on the full model, `reduced_model_mass` that of the reduced model; `scanned` has
     the worst trip and the worst parked floor by mass, `full_model_runs` pairs of mass [kg] and swing [m], `sensors` the heights
@@ -37,11 +37,11 @@ class DesignResult(Result):
     profile: Profile
 
     def headline(self) -> str:
-        """The least mass of the sheave, and the limit of the swing."""
+        """Smallest sheave mass, and the limit of the swing."""
         return report.summary(self.to_json())[0]
 
     def summary(self) -> str:
-        """The least mass of the sheave and the heights of the sensors."""
+        """Smallest sheave mass and sensor heights."""
         return "\n".join(report.summary(self.to_json()))
 
     def to_json(self) -> dict[str, Any]:
@@ -58,7 +58,7 @@ class DesignResult(Result):
         return pd.DataFrame(rows, columns=columns)
 
     def save_html(self, path: str | Path) -> None:
-        """Write the page with tables and pictures, whole or not at all."""
+        """Write the HTML page, completely or not at all."""
         save_page(path, report.TITLE, report.LEAD, self._sections())
 
     def save_files(self, folder: str | Path) -> None:

@@ -11,16 +11,16 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class SensorChoice:
-    """Chosen places as indices, and the share of the largest swing that the best of them measures, on the worst occasion."""
+    """Indices of the chosen places, and the worst-case fraction of the largest swing that one of them measures."""
 
     places: tuple[int, ...]
     share: float
 
 
 def choose_sensors(departures: Floats, count: int) -> SensorChoice:
-    """The `count` places at which most of the motion of every occasion is measured: greedy choice, then exchange.
+    """Choose `count` places of `departures` (cases, places) by greedy selection followed by exchange.
 
-    `departures` (occasions, places) are the largest at each place; the share is over the largest anywhere on that occasion.
+    `departures` are the largest at each place; the fraction is relative to the largest one of that case.
     """
     shares = departures / departures.max(axis=1, keepdims=True)
     chosen: list[int] = []
@@ -34,7 +34,7 @@ def choose_sensors(departures: Floats, count: int) -> SensorChoice:
 
 
 def _best(shares: Floats, chosen: Sequence[int]) -> int:
-    """The place that helps the worst occasion most, by the mean where several do."""
+    """The place that improves the worst case most; for equal ones the mean over cases decides."""
     have = shares[:, list(chosen)].max(axis=1, initial=0.0)[:, None]
     with_each = np.maximum(shares, have)
     return int(np.argmax(with_each.min(axis=0) + 1e-3 * with_each.mean(axis=0)))

@@ -1,4 +1,4 @@
-"""The swing of all trips between floors on the reduced model, for one sheave; and of the worst one on the full model."""
+"""Swing of all trips between floors for one sheave mass with the reduced model, and of the worst one with the full model."""
 
 from collections.abc import Mapping
 from itertools import permutations
@@ -37,7 +37,7 @@ def floor_heights(height: float, count: int) -> Floats:
 
 
 def trips_between(heights: Floats) -> list[tuple[float, float]]:
-    """All trips between floors [m] but the mirror images, which swing the other side alike."""
+    """All trips between floors [m] except mirror images, which give the same swing on the other side."""
     top = heights[-1]
     found = set()
     for start, end in permutations(heights.tolist(), 2):
@@ -47,12 +47,12 @@ def trips_between(heights: Floats) -> list[tuple[float, float]]:
 
 
 def s_curve_trajectory(profile: Profile, trip: tuple[float, float]) -> ReferenceTrajectory:
-    """The jerk-limited course of a trip."""
+    """Jerk-limited reference trajectory of a trip."""
     return ReferenceTrajectory(plan_s_curve(profile, *trip, REST_BEFORE))
 
 
 def model_with_sheave(model: RopeModel, mass: float) -> RopeModel:
-    """The model with a sheave of another mass [kg], the same disc."""
+    """The model with another sheave mass [kg], inertia in proportion."""
     return with_changes(model, with_sheave(model, mass))
 
 
@@ -91,7 +91,7 @@ def full_model_case(case: Mapping[str, Any]) -> float:
 def envelopes(
     reduced: ReducedModel, profile: Profile, trip: tuple[float, float], observation: float, heights: Floats
 ) -> list[dict[str, Floats]]:
-    """The farthest departures [m] on a trip, and those after it, at `heights` [m], by side; 0 where no rope passes."""
+    """Largest displacements [m] during and after a trip, at `heights` [m], by side; 0 where there is no rope."""
     trajectory = s_curve_trajectory(profile, trip)
     motion = sample_motion(trajectory, trajectory.end_time + observation, SEARCH_STEP)
     whole, after = dict[str, Floats](), dict[str, Floats]()
@@ -102,7 +102,7 @@ def envelopes(
 
 
 def _at_heights(departure: Floats, length: Floats, above: Floats) -> Floats:
-    """Departures (n, heights) at heights `above` the axle [m], from those at READ_POSITIONS, evenly spaced; 0 beyond these."""
+    """Displacements (n, heights) at heights `above` the axle [m], interpolated from READ_POSITIONS; 0 beyond these."""
     place = (above / length[:, None] - READ_POSITIONS[0]) / (READ_POSITIONS[1] - READ_POSITIONS[0])
     k = np.clip(place.astype(int), 0, len(READ_POSITIONS) - 2)
     rows = np.arange(len(length))[:, None]

@@ -1,4 +1,4 @@
-"""The public function `comprope_system.design`: the least sheave, sensor positions, natural periods against trips and sway."""
+"""The public function `comprope_system.design`: smallest sheave mass, sensor heights, natural periods against trips and sway."""
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
@@ -35,7 +35,7 @@ MAX_RUNS = 12  # of a full model's search for the mass
 
 @dataclass(frozen=True)
 class DesignOptions:
-    """What the design must keep.
+    """Requirements of the design.
 
     `swing_limit` [m] is the largest swing during and after a trip, `floors` the number of evenly spaced floors between which all
     trips count, `sway` that of the building, `sway_limit` [m] the largest swing in it, None if it is only computed; `sensors` is
@@ -51,7 +51,7 @@ class DesignOptions:
 
 @dataclass(frozen=True)
 class _Sweeps:
-    """Where cases run: an executor, the file that keeps results, and the function that progress is reported to."""
+    """Execution of sweeps: executor, results file, and progress callback."""
 
     executor: Executor | None
     store: Path | None
@@ -73,7 +73,7 @@ def design(
     jobs: int | None = 1,
     progress: Progress = no_progress,
 ) -> DesignResult:
-    """Find the least sheave that keeps the swing under a limit on all trips and in a swaying building, and sensor positions.
+    """Compute the smallest sheave mass for a limit of the swing on all trips and under building sway, and sensor heights.
 
     `model` is a model file, a preset's name or a `RopeModel`; `drive` moves the car, by default the preset's own; `changes` are
     values by key. Results go into the file `checkpoint` as they come and are taken over from it. Runs on `executor` (of
@@ -110,7 +110,7 @@ def _millimetres(length: float) -> float:
 
 
 def _wraps(model: RopeModel, mass: float) -> bool:
-    """Whether the rope wraps a sheave of that mass [kg] well enough for the reduced model."""
+    """Whether the rope wraps a sheave of this mass [kg] well enough for the reduced model."""
     weight = 0.5 * model.shaft.gravity * mass
     return weight > model.rope.bending_stiffness / model.sheave.radius**2
 

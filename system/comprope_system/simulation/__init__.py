@@ -1,1 +1,1 @@
-"""One trip of drive and rope: simulation, results, picture and animation."""
+"""One trip of drive and rope: simulation, results, plots and animation."""

@@ -1,4 +1,4 @@
-"""Drive and rope put together: who steps first, what goes where, and the parameters of both from one model."""
+"""The elevator as a co-simulation: participants drive and rope, their order, connections and parameters from one model."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager

@@ -1,7 +1,7 @@
-"""A measured run for the simulation to follow: how the car moved, and what the sensors saw.
+"""A measured run for the simulation: prescribed motion of the car, and measured sensor signals.
 
-The file `campaign.toml` beside a run, where there is one, tells units, references and what differs
-from the model file in that run. Without it, columns with a sensor's name are lateral displacements in metres.
+If there is a `campaign.toml` in the folder of the run, it gives units, references and changed parameters
+of that run. Without it, columns with a sensor's name are lateral displacements in metres.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ LENGTHS = UNITS["lateral_displacement"]
 
 @dataclass(frozen=True)
 class Channel:
-    """Lateral displacement measured at a sensor [m]; `from_rest`: less its mean before the trip."""
+    """Lateral displacement measured at a sensor [m]; `from_rest`: relative to its mean before the trip."""
 
     time: Floats
     value: Floats
@@ -41,7 +41,7 @@ class Run:
 
 
 def read_run(path: Path, height: float, sensors: Sequence[str]) -> Run:
-    """The run of a CSV file, in a shaft of this height [m]; raises `InputError` for what it lacks."""
+    """The run of a CSV file, in a shaft of this height [m]; raises `InputError` for missing columns."""
     table = read_table(path, ("time", "car_position"))
     described = path.parent / "campaign.toml"
     campaign = read_toml(described) if described.is_file() else {}
@@ -57,7 +57,7 @@ def read_run(path: Path, height: float, sensors: Sequence[str]) -> Run:
 
 
 def _described(campaign: dict[str, Any]) -> dict[str, tuple[str, float, bool]]:
-    """Column, metres per unit, and whether it counts from rest, by sensor, as a campaign describes its channels."""
+    """Column, metres per unit, and whether it is relative to rest, by sensor, from the channels of a campaign."""
     found = {}
     for channel in campaign.get("channels", []):
         if isinstance(channel, dict) and channel.get("quantity") == "lateral_displacement" and channel.get("unit") in LENGTHS:

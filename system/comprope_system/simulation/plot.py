@@ -1,4 +1,4 @@
-"""The picture of one trip: how the car moves, how the rope swings, what the sheave does."""
+"""Plot of one trip: car, rope at each sensor, and sheave."""
 
 from pathlib import Path
 
@@ -16,14 +16,14 @@ SIMULATED, MEASURED, SECOND = "#0b4f8a", "#e8893b", "#7a8794"
 
 
 def save_trip(path: Path, simulated: Simulated, measured: Run | None = None) -> None:
-    """Draw a trip into a file, whole or not at all; its suffix tells the format."""
+    """Plot a trip to a file, completely or not at all; the extension determines the format."""
     figure = draw_trip(simulated, measured)
     with atomic_write(path) as temporary:
         figure.savefig(temporary, dpi=150)
 
 
 def draw_trip(simulated: Simulated, measured: Run | None = None) -> Figure:
-    """The picture: car and sheave on the left, lateral displacement at each sensor on the right."""
+    """Figure with car and sheave on the left, lateral displacement at each sensor on the right."""
     rows = max(4, len(simulated.sensors))
     figure = Figure(figsize=(13.0, 2.1 * rows + 0.6), layout="constrained")
     grid = figure.add_gridspec(rows, 2)
@@ -54,7 +54,7 @@ def _draw_sheave(force: Axes, motion: Axes, simulated: Simulated) -> None:
     _curve(motion, table["time"], 1e3 * table["sheave_displacement"], "height of sheave [mm]")
     turning = motion.twinx()
     turning.plot(table["time"], table["sheave_angular_velocity"], color=SECOND, linewidth=0.9)
-    turning.set_ylabel("turning [rad/s]", color=SECOND)
+    turning.set_ylabel("angular velocity [rad/s]", color=SECOND)
     turning.spines["top"].set_visible(False)
 
 
@@ -71,7 +71,7 @@ def _draw_sensor(axes: Axes, simulated: Simulated, name: str, measured: Run | No
 
 
 def alongside(channel: Channel, measured: Run, simulated: Simulated, name: str) -> tuple[ArrayLike, ArrayLike]:
-    """The measured channel [mm] with, where it counts from rest, its rest put on the simulated one."""
+    """The measured channel [mm]; if relative to rest, shifted to the simulated value at rest."""
     shift = 0.0
     if channel.from_rest:
         still = channel.time <= measured.trips["car"].rest_before

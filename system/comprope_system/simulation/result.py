@@ -1,4 +1,4 @@
-"""The result of `comprope_system.simulate`: one trip as a table, with text, picture and page."""
+"""The result of `comprope_system.simulate`: one trip as a table, with summary, plot and HTML page."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,12 +31,12 @@ class SimulationResult(Result, Simulated):
     recording: Recording | None
 
     def headline(self) -> str:
-        """The way of the car, and how long it was simulated."""
+        """Start and end of the car's motion, and the simulated time."""
         figures = dict(summary(self))
         return f"{self.model_name}: the car from {figures['car']}, {figures['duration']} simulated"
 
     def summary(self) -> str:
-        """Key figures of the trip, one a line."""
+        """Key figures of the trip, one per line."""
         lines = summary(self)
         width = max(len(name) for name, _ in lines)
         return "\n".join(f"{name:<{width}}  {text}" for name, text in lines)
@@ -56,15 +56,15 @@ class SimulationResult(Result, Simulated):
         return self.table
 
     def save_html(self, path: str | Path) -> None:
-        """Write a page that plays the trip; raises `InputError` if the rope was an FMU, which does not show its shape."""
+        """Write an HTML page with an animation; raises `InputError` if the rope was an FMU, which does not output its shape."""
         from .animation.page import save_trip_page
 
         if self.recording is None:
-            raise InputError("fmu = True: a page that plays the trip needs the rope's shape; fmu = False is accepted")
+            raise InputError("fmu = True: the page needs the rope's shape, which an FMU does not output; fmu = False is accepted")
         save_trip_page(Path(path), self.model_name, self.model, self, self.recording, self.measured)
 
     def save_plot(self, path: str | Path) -> None:
-        """Write the picture of the trip as .png, .pdf or .svg, whole or not at all."""
+        """Write the plot of the trip as .png, .pdf or .svg, completely or not at all."""
         from .plot import save_trip
 
         save_trip(Path(path), self, self.measured)

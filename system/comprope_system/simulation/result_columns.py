@@ -1,4 +1,4 @@
-"""The columns of a simulated trip: what the CSV file holds, in which unit, and where it comes from."""
+"""Columns of a simulated trip: name, unit, description, and the output it comes from."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -51,9 +51,9 @@ ROPE = (
 
 
 def columns(sensors: Sequence[str], driven: bool) -> list[Column]:
-    """The columns of a trip with these sensors' names, in the order of the file; `driven`: by the drive, not as measured.
+    """Columns of a trip with these sensors, in the order of the file; `driven`: by the drive, not by measured motion.
 
-    Raises `InputError` where a sensor has the name of another column.
+    Raises `InputError` if a sensor has the name of another column.
     """
     fixed = [*MOTION, *ROPE, *([TORQUE] if driven else [])]
     if taken := sorted(set(sensors) & {"time", *(one.name for one in fixed)}):
@@ -71,5 +71,5 @@ def lateral_output(sensor: int) -> str:
 
 
 def view_output(sensor: int) -> str:
-    """The rope's output that tells whether the sensor of this index, from 0, sees the rope."""
+    """The rope's output for whether the rope is in view of the sensor of this index, from 0."""
     return f"in_view[{sensor + 1}]"

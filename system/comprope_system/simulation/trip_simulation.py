@@ -29,14 +29,14 @@ class Simulated:
     sensors: tuple[str, ...]
 
     def to_csv(self, path: str | Path) -> None:
-        """Write the table, whole or not at all; missing values are empty cells."""
+        """Write the table, completely or not at all; missing values are empty cells."""
         with atomic_write(path) as temporary:
             self.table.to_csv(temporary, index=False, float_format="%.9g", lineterminator="\n")
 
 
 @dataclass(frozen=True)
 class Timing:
-    """How long to simulate, the communication step [s], and whether the drive feels the rope."""
+    """Simulated time and communication step [s], and the coupling of drive and rope."""
 
     duration: float
     step: float = 0.01
@@ -72,7 +72,7 @@ def _row(sample: Sample, chosen: Sequence[Column], sensors: Sequence[str]) -> li
 
 
 def summary(simulated: Simulated) -> list[tuple[str, str]]:
-    """What happened, as pairs of a name and a text."""
+    """Key figures of a trip as pairs of name and text."""
     table = simulated.table
     force = table["sheave_force"]
     end = table.iloc[-1]
@@ -92,10 +92,10 @@ def _height(value: float) -> str:
 
 
 def _peak(table: pd.DataFrame, name: str) -> str:
-    """The largest departure from the value at the start, with its time."""
+    """Largest deviation from the initial value, with its time."""
     change = table[name] - table[name].iloc[0]
     if not change.notna().any():
-        return "the rope was never there at the start" if table[name].notna().any() else "the rope was never there"
+        return "the rope was not in view at the start" if table[name].notna().any() else "the rope was never in view"
     at = change.abs().idxmax()
     return f"{1e3 * change[at]:+.2f} mm from rest, at {table['time'][at]:.2f} s"
 

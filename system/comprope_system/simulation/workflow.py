@@ -31,7 +31,7 @@ SETTLE = 8.0  # s simulated after the trip, while the rope vibrates freely
 
 @dataclass(frozen=True)
 class CarMotion:
-    """How the car moves: by a drive between two heights, or as measured.
+    """Motion of the car: by a drive between two heights, or as measured.
 
     `start` and `end` are heights above the bottom landing [m], by default the two terminal landings; `speed` [m/s],
     `acceleration` [m/s2] and `jerk` [m/s3] replace the drive's limits. `drive` is a parameter file or a `Drive`, by default the
@@ -62,8 +62,8 @@ def simulate(
 
     `model` is a model file, a preset's name or a `RopeModel`; `changes` are values by key, `{"sheave.mass": 90.0}`, also of the
     drive's tables; `duration` [s] is by default that of the trip and 8 s at rest; `step` is the communication step [s];
-    `coupling` "one-way" keeps the rope's forces from the drive. With `fmu` both models are stepped as FMUs, with the same
-    numbers. Raises `InputError` for bad input, `SimulationError` where a step does not converge.
+    `coupling` "one-way" does not apply the rope's forces to the drive. With `fmu` both models are simulated as FMUs, with the
+    same results. Raises `InputError` for invalid input, `SimulationError` if a step does not converge.
     """
     motion = motion or CarMotion()
     rope_model, drive_changes = _model(model, changes)
@@ -88,7 +88,7 @@ def simulate(
 
 
 def _advance(progress: Progress, camera: Camera | None, count: int, total: int) -> None:
-    """Report a communication step, and record the rope's shape where it is there."""
+    """Report progress of a communication step, and record the shape of the rope if available."""
     progress("simulating", count, total)
     if camera:
         camera(count, total)

@@ -1,1 +1,1 @@
-"""A trip to be watched: the rope's shape in time, packed small, for a page that plays it."""
+"""Animation of a trip: compactly encoded shapes of the rope over time for an HTML page."""

@@ -1,7 +1,7 @@
-"""A film: frames and traces as plain tables of numbers, packed small enough for a page to carry.
+"""Compact encoding of frames and traces of an animation as tables of numbers.
 
-An array is packed as 16-bit integers, little end first, times one scale, in base64: a few parts in 10,000 of the largest value,
-which is less than the width of a line.
+An array is encoded as little-endian 16-bit integers with one scale factor, in base64. The error is below 1e-4 of the largest
+value, less than the width of a line.
 """
 
 import base64
@@ -21,7 +21,7 @@ LARGEST, NOTHING = 32767, -32768
 
 @dataclass(frozen=True)
 class Trace:
-    """A curve over time [s], drawn beside the animation; `sensor` is the index of the one that it belongs to, if any."""
+    """A curve over time [s], plotted next to the animation; `sensor` is the index of its sensor, if any."""
 
     name: str
     unit: str
@@ -32,7 +32,7 @@ class Trace:
 
 
 def film(model: Base, frames: Sequence[Frame], interval: float, traces: Sequence[Trace]) -> dict[str, Any]:
-    """The film of frames every `interval` [s], as the player reads it; lengths in m, times in s."""
+    """Animation data with a frame every `interval` [s] for player.js; lengths in m, times in s."""
     return {
         "interval": interval,
         "frames": len(frames),
@@ -52,7 +52,7 @@ def film(model: Base, frames: Sequence[Frame], interval: float, traces: Sequence
 
 
 def packed(values: ArrayLike) -> dict[str, Any]:
-    """An array of any shape as {"shape", "scale", "data"}; what is not a number is NOTHING."""
+    """Encode an array of any shape as {"shape", "scale", "data"}; NaN becomes NOTHING."""
     array = np.asarray(values, float)
     finite = np.isfinite(array)
     scale = float(np.max(np.abs(array[finite]), initial=0.0)) / LARGEST or 1.0
@@ -61,7 +61,7 @@ def packed(values: ArrayLike) -> dict[str, Any]:
 
 
 def unpacked(table: dict[str, Any]) -> np.ndarray:
-    """What `packed` has packed, as the player sees it."""
+    """Decode the result of `packed`, as player.js does."""
     whole = np.frombuffer(base64.b64decode(table["data"]), "<i2").reshape(table["shape"])
     return np.where(whole == NOTHING, np.nan, whole * table["scale"])
 

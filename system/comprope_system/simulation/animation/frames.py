@@ -1,4 +1,4 @@
-"""What is kept of a rope at an instant, so that its motion can be drawn: both sides, the arc round the sheave, the sheave."""
+"""Frames of an animation: shapes of both sides, the rope around the sheave, and the sheave's position."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ MOST = 1200  # frames; a longer trip has fewer of them a second
 @dataclass(frozen=True)
 class Frame:
     """One instant: heights of the two ends [m], outward displacement of both sides (2, POINTS) [m], upper end first;
-    the rope round the sheave (2, ARC): to the counterweight's side and above the built axle [m]; axle's rise [m]; angle [rad].
+    the rope around the sheave (2, ARC): to the counterweight's side and above the built axle [m]; axle's rise [m]; angle [rad].
     """
 
     ends: Floats
@@ -43,14 +43,14 @@ class Recording:
 
 
 def look(rope: CompensationRope) -> Frame:
-    """The frame of a rope as it stands. Points of a side that folds back below a height are NaN."""
+    """Frame of a rope in its present state. Points of a side that folds back below a height are NaN."""
     n, q, pit = rope.n, rope.state.q, rope.model.shaft.pit
     ends = np.array([-q[0], -q[n - 1]])
     return Frame(ends, _sides(rope), _arc(rope, pit), pit - float(q[n]), float(q[2 * n + 1]))
 
 
 def at_rest(model: Base, frames: Iterable[Frame]) -> list[Floats]:
-    """The sides (2, POINTS) [m] of the same rope at rest, with its ends at the heights they have in each frame."""
+    """Static shapes (2, POINTS) [m] of the sides for the positions of the ends in each frame."""
     rope, found = CompensationRope(model), []
     for frame in frames:
         rope.settle(*frame.ends)
@@ -73,9 +73,9 @@ def _arc(rope: CompensationRope, pit: float) -> Floats:
 
 
 class Camera:
-    """Takes a frame every few communication steps of `step` [s]; called after each, from the start on.
+    """Records a frame every few communication steps of `step` [s]; called after each step, including the start.
 
-    `rope` gives the rope that moves: it may be made anew before the first step.
+    `rope` returns the present rope object, which may be replaced before the first step.
     """
 
     def __init__(self, rope: Callable[[], CompensationRope], step: float) -> None:
@@ -90,7 +90,7 @@ class Camera:
 
     @property
     def recording(self) -> Recording:
-        """The frames so far."""
+        """The frames recorded so far."""
         return Recording(tuple(self.frames), self.interval)
 
     def __call__(self, count: int, total: int) -> None:

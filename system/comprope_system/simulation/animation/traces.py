@@ -1,4 +1,4 @@
-"""The curves beside an animation: what the sensors saw, and what car and sheave did."""
+"""Curves shown with an animation: sensor signals, and motion of car and sheave."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +18,7 @@ OTHERS = (  # column, name, factor, unit
 
 
 def traces(simulated: Simulated, measured: Run | None = None) -> list[Trace]:
-    """First the sensors' [mm], with what was measured there, then car and sheave."""
+    """Sensor signals [mm] with measured ones, followed by car and sheave."""
     table = simulated.table.iloc[:: _stride(len(simulated.table))]
     time = table["time"]
     seen = [
