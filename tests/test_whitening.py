@@ -84,12 +84,12 @@ def test_bins_are_means_of_good_samples_only() -> None:
     found = whiten_channel(run(), channel(), value, visible)
     assert found is not None
     left_out = [100, 150, 200]
-    assert np.flatnonzero(found.of < 0).tolist() == left_out
+    assert np.flatnonzero(found.bin_of < 0).tolist() == left_out
     index = (TIME / 0.05).astype(int)
     for k in (100, 150, 200, 250):
         mates = [j for j in np.flatnonzero(index == index[k]) if j not in left_out]
-        assert found.data[found.of[mates[0]]] == pytest.approx(np.mean(value[mates]), rel=1e-12)
-        assert found.count[found.of[mates[0]]] == len(mates)
+        assert found.data[found.bin_of[mates[0]]] == pytest.approx(np.mean(value[mates]), rel=1e-12)
+        assert found.count[found.bin_of[mates[0]]] == len(mates)
     assert found.means(np.ones(TIME.size)) == pytest.approx(np.ones(found.count.size), rel=1e-12)
     whole = stack([found, found], {("a.csv", "laser"): value})
     assert whole == pytest.approx(np.tile(found.whiten(found.data), 2), rel=1e-9)
