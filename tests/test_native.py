@@ -34,6 +34,7 @@ from comprope_system import presets
 
 from .fmi_pair import Pair
 from .native_fmu import ORIGIN, compiler, native_fmu, tower
+from .own_effects import FILES
 
 HEADERS = Path(fmpy.__file__).parent / "c-code"
 HOST = Path(__file__).parent / "native_host.c"
@@ -314,7 +315,8 @@ model, fmu, *effects = sys.argv[1:]
 rope = interface(validated(as_table(load(Path(model))) | {"own_effects": effects}, model))
 pair = Pair(Path(fmu), rope)
 brush = {"effects.pit_brush.damping": 20.0, "effects.pit_brush.top": 30.0, "effects.building_sway.amplitude": 0.05}
-pair.start(brush | {"effects.sheave_pull.force": 150.0, "rope.element_length": 0.2})
+own = {"effects.rail_joints.kick": 0.02, "effects.pit_spring.stiffness": 1e4, "effects.root.size": 10.0}
+pair.start(brush | own | {"rope.element_length": 0.2})
 for k in range(1, 31):
     pair.put(["car_position", "counterweight_position"], [1e-4 * k * k, 50.0 - 1e-4 * k * k])
     pair.step(0.01)
@@ -326,8 +328,7 @@ assert pair.refusals == 0
 def test_effects_from_files_are_compiled_in(fmu: Path, tmp_path: Path) -> None:
     """They do what they do just in time, to the last bit, and nothing while they are off."""
     root, model = Path(__file__).parent.parent, str(presets.model_path("tower50"))
-    (tmp_path / "pull.py").write_text(PULL)
-    effects = (tmp_path / "pull.py", root / "docs" / "examples" / "pit_brush.py")
+    effects = [Path(one) for one in FILES["own_effects"]]  # as in other tests, whose compiled kernels serve here too
     made = built_apart(tmp_path / "out", fmu, Path(comprope.__file__).parents[1], *effects)
     command = [sys.executable, "-c", BESIDE, model, str(made), *map(str, effects)]
     subprocess.run(command, env=os.environ | {"COMPROPE_ALLOW_CODE": "1"}, cwd=root, check=True)
@@ -335,8 +336,9 @@ def test_effects_from_files_are_compiled_in(fmu: Path, tmp_path: Path) -> None:
     short = {"stop_time": 0.1, "step_size": 0.01, "output_interval": 0.01}
     without, off = simulate_fmu(str(fmu), **short), simulate_fmu(str(made), **short)
     assert all(np.array_equal(without[name], off[name]) for name in without.dtype.names)
-    on = simulate_fmu(str(made), **short, start_values={"effects.sheave_pull.force": 150.0})
-    assert on["sheave_force"] == pytest.approx(without["sheave_force"] + 150.0, rel=1e-6)  # at rest, to Newton's tolerance
+    on = simulate_fmu(str(made), **short, start_values={"effects.root.size": 10.0})
+    lifted = 10.0 * np.sqrt(22.0)  # N, with the car at the bottom landing
+    assert on["sheave_force"] == pytest.approx(without["sheave_force"] - lifted, rel=1e-6)  # at rest, to Newton's tolerance
 
 
 OTHER = """\

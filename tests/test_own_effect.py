@@ -36,13 +36,11 @@ from comprope_system.simulation.elevator import driven
 from comprope_system.simulation.trip_simulation import Timing, simulate
 
 from . import virtual_lift
+from .own_effects import EXAMPLES, FILES, SPRING
 from .rope_tower import TOWER, ride
 from .test_rope_kernels import agrees, differences, free, random_state, tangent
 
 DOCS = Path(__file__).parent.parent / "docs"
-EXAMPLES = DOCS / "examples"
-SPRING = Path(__file__).parent / "own_effects" / "pit_spring.py"
-FILES = {"own_effects": [str(EXAMPLES / "rail_joints.py"), str(EXAMPLES / "pit_brush.py"), str(SPRING)]}
 JOINTS = {"effects.rail_joints.kick": 0.02, "effects.rail_joints.spacing": 2.5}
 BRUSH = {"effects.pit_brush.damping": 5.0}
 BUILT_IN = tuple(REGISTRY)
@@ -226,18 +224,21 @@ def test_the_fmu_gives_the_same_numbers_and_has_the_effect_inside(examples):
     assert result.stdout == "True\n", result.stderr
 
 
-def test_the_command_that_builds_fmus_asks_for_consent_too(tmp_path):
+def test_the_command_that_builds_fmus_asks_for_consent_too(examples, tmp_path):
+    out, model = tmp_path / "out", tmp_path / "model.toml"
+    dump(with_changes(examples, {"effects.rail_joints.kick": 0.005}), model)
+    out.mkdir()
+
     def built(*options):
-        builder, model = DOCS.parent / "build_fmu.py", EXAMPLES / "rail_joints.toml"
-        command = [sys.executable, builder, "--model", model, "--out", tmp_path, *options]
+        command = [sys.executable, DOCS.parent / "build_fmu.py", "--model", model, "--out", out, *options]
         environment = {key: value for key, value in os.environ.items() if key != consent.VARIABLE}
         return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
 
     refused = built()
-    assert refused.returncode == 2 and len(refused.stderr.splitlines()) == 1 and not list(tmp_path.iterdir())
+    assert refused.returncode == 2 and len(refused.stderr.splitlines()) == len(FILES["own_effects"]) and not list(out.iterdir())
     assert "rail_joints.py would be run as a program" in refused.stderr
     assert built("--allow-code").returncode == 0
-    variables = {one.name: one for one in read_model_description(str(tmp_path / "CompensationRope.fmu")).modelVariables}
+    variables = {one.name: one for one in read_model_description(str(out / "CompensationRope.fmu")).modelVariables}
     assert float(variables["effects.rail_joints.kick"].start) == 0.005 and variables["effects.rail_joints.kick"].unit == "m"
 
 
