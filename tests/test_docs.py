@@ -98,6 +98,7 @@ def test_the_lines_for_fmpy_on_the_page_run(dist):
     assert np.ptp(result["lateral_displacement[1]"]) > 1e-4
 
 
+@pytest.mark.slow
 def test_the_tutorial_runs(tmp_path):
     """In a folder of its own, as a reader runs it; its own assertions say whether it comes out as it tells."""
     done = subprocess.run(

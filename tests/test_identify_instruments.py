@@ -25,7 +25,7 @@ def executor():
     ("effect", "value", "told"),
     [
         ("sensor_gain", -1.0, "its sign is probably wrong"),
-        ("sensor_gain", 0.1, 'its unit is probably "cm", not "mm"'),
+        pytest.param("sensor_gain", 0.1, 'its unit is probably "cm", not "mm"', marks=pytest.mark.slow),
         ("sensor_delay", 0.12, None),  # s, beside a clock that is fitted as well
         ("sensor_drift", 4e-4, "drifts by about"),  # m/s: 3.6 mm over a record, 12 times the noise
     ],

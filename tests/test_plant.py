@@ -134,6 +134,7 @@ def test_a_site_can_be_measured(site, tmp_path):
         assert (plan.column in site.channels) if cause.channel else plan.column is None
 
 
+@pytest.mark.slow
 def test_the_office_building_agrees_with_the_library(tmp_path):
     site = replace(SITES["office28"], runs={"part": replace(SITES["office28"].runs["part"], role="fit")})
     plan = replace(plant_check.COARSE, site=site)

@@ -133,26 +133,32 @@ def test_a_push_on_the_cars_end_is_found_there(pushed):
     require(pushed, "car_end_out", truth, 0.5)
 
 
+@pytest.mark.slow
 def test_a_motion_of_the_counterweights_end_is_found_there(lagging):
     # The car's end lifts the sheave as the counterweight's does: the turning differs by some 3 mrad/s, its noise is 10.
     require(lagging, "counterweight_end_up", lambda run, time: STRETCH * run.trip.acceleration(time), 0.3, twin="car_end_up")
     assert "hardly tell it from" in lagging[1].sentence()
 
 
+@pytest.mark.slow
 def test_a_torque_on_the_sheave_is_found_there(turned):
     pulse = BSpline.basis_element(np.arange(-2.0, 3.0), extrapolate=False)
     # A steady torque hardly shows, so the course is uncertain by some N m beside the pulse.
     require(turned, "sheave_torque", lambda run, time: TORQUE * np.nan_to_num(pulse((time - WHEN) / WIDTH)), 0.5)
 
 
-def test_what_it_follows_is_told(pushed, lagging):
-    for (campaign, force), follows in ((pushed, "the car's position"), (lagging, "the car's acceleration")):
-        assert f"it follows {follows}" in force.sentence() and force.estimates[0].location.name[2:] in force.sentence()
-        told = json.loads(json.dumps(plain(force.to_json()), allow_nan=False))
-        assert [one["share"] for one in told] == sorted((one["share"] for one in told), reverse=True)
-        assert told[0]["locked_to"] and {"place", "share", "size", "unit", "courses"} <= set(told[0])
-        assert len(tables.force_table(force).rows) == len(told)
-        assert figures.force_bars(force).axes and len(figures.force_histories(campaign, force).axes) == 4
+@pytest.mark.parametrize(
+    ("hidden", "follows"),
+    [("pushed", "the car's position"), pytest.param("lagging", "the car's acceleration", marks=pytest.mark.slow)],
+)
+def test_what_it_follows_is_told(request, hidden, follows):
+    campaign, force = request.getfixturevalue(hidden)
+    assert f"it follows {follows}" in force.sentence() and force.estimates[0].location.name[2:] in force.sentence()
+    told = json.loads(json.dumps(plain(force.to_json()), allow_nan=False))
+    assert [one["share"] for one in told] == sorted((one["share"] for one in told), reverse=True)
+    assert told[0]["locked_to"] and {"place", "share", "size", "unit", "courses"} <= set(told[0])
+    assert len(tables.force_table(force).rows) == len(told)
+    assert figures.force_bars(force).axes and len(figures.force_histories(campaign, force).axes) == 4
 
 
 def test_the_estimate_of_a_known_course():
