@@ -30,6 +30,9 @@ def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False) -> None:
 
     First example: `comprope simulate tower50 --plot trip.png`. For MODEL.toml every command also accepts the name of a
     preset: tower50, tower50_light, building200.
+
+    Compiled kernels and FMUs are kept in the folder that the environment variable COMPROPE_CACHE names, by default the user's
+    cache folder (`~/.cache/comprope`); to empty the cache, delete it.
     """
     context.with_resource(consent.giving(allow_code))
     if context.invoked_subcommand is None:
