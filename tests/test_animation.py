@@ -15,7 +15,7 @@ from comprope_system.report.page import Animation, Section, save_page
 from comprope_system.simulation.animation.encoding import Trace, film, packed, unpacked
 from comprope_system.simulation.animation.frames import ARC, DOWN, MOST, POINTS, Camera, Frame, look
 
-from .virtual_lift import MODEL
+from .virtual_elevator import MODEL
 
 # A coarse rope in a low shaft: seconds matter here, not millimetres.
 QUICK = [

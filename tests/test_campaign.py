@@ -8,7 +8,7 @@ from comprope.errors import InputError
 from comprope.rope.model_file import dump
 from comprope_system.identification.data.campaign import load_campaign
 
-from .virtual_lift import END, MODEL, PHASES, SAMPLING, description
+from .virtual_elevator import END, MODEL, PHASES, SAMPLING, description
 
 CHANNEL = '[[channels]]\ncolumn = "cw_low"\nquantity = "lateral_displacement"\nsensor = "cw_low"\nunit = "mm"\n'
 RUN = '[[runs]]\nfile = "up.csv"\nrole = "fit"\n'
@@ -17,7 +17,7 @@ RUN = '[[runs]]\nfile = "up.csv"\nrole = "fit"\n'
 @pytest.fixture
 def folder(tmp_path):
     """A campaign whose files are right; nothing is simulated, so the channels say little."""
-    dump(MODEL, tmp_path / "lift.toml")
+    dump(MODEL, tmp_path / "elevator.toml")
     table(tmp_path, "up.csv", 2.0, 7.0)
     table(tmp_path, "down_light.csv", 10.0, -7.0)
     table(tmp_path, "up_short.csv", 4.0, 5.0)
@@ -84,18 +84,21 @@ def test_every_problem_of_every_file_is_told_at_once(folder):
 
 BAD = [
     ("", ["name: missing", "model: missing", "channels: missing", "runs: missing"]),
-    ('name = "x"\nmodel = "lift.toml"\nruns = 3\n' + CHANNEL, ["runs = 3: "]),
+    ('name = "x"\nmodel = "elevator.toml"\nruns = 3\n' + CHANNEL, ["runs = 3: "]),
     ('name = "x"\nmodel = "absent.toml"\n' + CHANNEL + RUN, ["absent.toml: cannot be read"]),
-    ('name = "x"\nmodel = "lift.toml"\ncolour = 1\n' + CHANNEL + RUN, ["colour = 1: unknown key"]),
-    ('name = "x"\nmodel = "lift.toml"\n' + CHANNEL + CHANNEL + RUN, ["column cw_low is described twice"]),
-    ('name = "x"\nmodel = "lift.toml"\n' + CHANNEL.replace("mm", "inch") + RUN, ['unit = "inch"', "m, cm, mm, um are accepted"]),
+    ('name = "x"\nmodel = "elevator.toml"\ncolour = 1\n' + CHANNEL + RUN, ["colour = 1: unknown key"]),
+    ('name = "x"\nmodel = "elevator.toml"\n' + CHANNEL + CHANNEL + RUN, ["column cw_low is described twice"]),
     (
-        'name = "x"\nmodel = "lift.toml"\n' + CHANNEL + RUN.replace("fit", "test"),
+        'name = "x"\nmodel = "elevator.toml"\n' + CHANNEL.replace("mm", "inch") + RUN,
+        ['unit = "inch"', "m, cm, mm, um are accepted"],
+    ),
+    (
+        'name = "x"\nmodel = "elevator.toml"\n' + CHANNEL + RUN.replace("fit", "test"),
         ['role = "test"', '"fit" or "validate" is accepted'],
     ),
-    ('name = "x"\nmodel = "lift.toml"\n' + CHANNEL + RUN.replace("fit", "validate"), ['at least one with role = "fit"']),
-    ('name = "x"\nmodel = "lift.toml"\n' + CHANNEL + "noise = -1.0\n" + RUN, ["channels[1].noise = -1.0"]),
-    ('name = "x"\nmodel = "lift.toml"\n' + CHANNEL + RUN.replace("up.csv", "absent.csv"), ["absent.csv: cannot be read"]),
+    ('name = "x"\nmodel = "elevator.toml"\n' + CHANNEL + RUN.replace("fit", "validate"), ['at least one with role = "fit"']),
+    ('name = "x"\nmodel = "elevator.toml"\n' + CHANNEL + "noise = -1.0\n" + RUN, ["channels[1].noise = -1.0"]),
+    ('name = "x"\nmodel = "elevator.toml"\n' + CHANNEL + RUN.replace("up.csv", "absent.csv"), ["absent.csv: cannot be read"]),
 ]
 
 

@@ -14,13 +14,13 @@ from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.data.trip_phases import PHASES, phases
 from comprope_system.parallel.executors import threads
 
-from . import virtual_lift
+from . import virtual_elevator
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A campaign in which nothing but the plant differs from the model."""
-    return virtual_lift.campaign(tmp_path_factory.mktemp("sound"), {})
+    return virtual_elevator.campaign(tmp_path_factory.mktemp("sound"), {})
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 from comprope.errors import InputError, SimulationError
 from comprope.fmi.model_interface import ModelInterface, Variable
 from comprope_system.cosim import Connection, co_simulate
-from comprope_system.cosim.in_process_participant import DirectParticipant
+from comprope_system.cosim.in_process_participant import InProcessParticipant
 from comprope_system.cosim.prescribed_motion import PrescribedMotion
 from comprope_system.measurements.jerk_limited_profile import jerk_limited
 from comprope_system.measurements.trip import Trip
@@ -58,7 +58,7 @@ class Decay:
 def toy(name, engine, **parameters):
     variables = [Variable(key, "real", "parameter", "", start=value) for key, value in parameters.items()]
     variables += [Variable("input", "real", "input", "", start=0.0), Variable("value", "real", "output", "")]
-    return DirectParticipant(name, ModelInterface(name, "", tuple(variables), engine), {})
+    return InProcessParticipant(name, ModelInterface(name, "", tuple(variables), engine), {})
 
 
 def link(source, target):

@@ -15,7 +15,7 @@ from comprope_system import presets
 
 ROPE, DRIVE = rope_interface(load(presets.model_path("tower50"))), drive_interface()
 SVG = "{http://www.w3.org/2000/svg}"
-# Numbers without a place in the lift, or that their line of help tells better than a picture.
+# Numbers without a place in the elevator, or that their line of help tells better than a picture.
 UNSEEN = {
     "shaft.gravity", "rope.count", "solver.step", "solver.numerical_damping", "derivative_inputs", "inputs_at_end",
     "profile.smoothing", "trip.start_position", "trip.destination", "servo.torque_limit", "servo.sample_period",

@@ -18,7 +18,7 @@ from comprope_system.identification.model_updating.add_effect import prepare
 from comprope_system.identification.prediction.parameter_point import ParameterPoint
 from comprope_system.parallel.executors import threads
 
-from . import virtual_lift
+from . import virtual_elevator
 
 MASS = [one.name for one in PLANT_PARAMETERS].index("rope.mass_per_length")
 LIGHT = 1.0  # kg/m, of a rope that the model has 1.2 of
@@ -37,8 +37,8 @@ def executor():
 def ground(tmp_path_factory, executor):
     """A light rope, a groove that runs 2 mm out of true, and a laser that shows a tenth too much."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(virtual_lift.PLANT, "rope.mass_per_length", LIGHT)
-        folder = virtual_lift.campaign(tmp_path_factory.mktemp("far"), HIDDEN)
+        patch.setitem(virtual_elevator.PLANT, "rope.mass_per_length", LIGHT)
+        folder = virtual_elevator.campaign(tmp_path_factory.mktemp("far"), HIDDEN)
     return prepare(load_campaign(folder), executor)
 
 
@@ -69,7 +69,7 @@ def test_two_effects_at_once_are_brought_into_step(ground):
 
 def test_of_two_effects_that_look_alike_both_are_fitted(tmp_path, executor):
     """Dry friction that holds the sheave nearly still looks like a damper; its linear look is far too poor to be worth a fit."""
-    campaign = load_campaign(virtual_lift.campaign(tmp_path / "dry", {"effects.guide_friction.coulomb_force": 60.0}))
+    campaign = load_campaign(virtual_elevator.campaign(tmp_path / "dry", {"effects.guide_friction.coulomb_force": 60.0}))
     found = diagnose(campaign, executor)
     fitted = {one.hypothesis.effect: one for one in found.ranking if one.refined}
     assert {"guide_friction", "sheave_damper"} <= set(fitted)

@@ -12,7 +12,7 @@ from comprope_system.identification.diagnosis.held_out_validation import implaus
 from comprope_system.identification.estimation.model_score import prior_cost
 from comprope_system.parallel.executors import threads
 
-from . import virtual_lift
+from . import virtual_elevator
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def executor():
 )
 def test_a_fault_of_one_channel_is_the_instruments(tmp_path, executor, effect, value, told):
     key = f"effects.{effect}.cw_low"
-    campaign = load_campaign(virtual_lift.campaign(tmp_path / "fault", {key: value}))
+    campaign = load_campaign(virtual_elevator.campaign(tmp_path / "fault", {key: value}))
     found = diagnose(campaign, executor)
     assert (found.verdict, found.kind) == (effect, "instrument")
     best = found.ranking[0]
@@ -43,8 +43,10 @@ def test_a_fault_of_one_channel_is_the_instruments(tmp_path, executor, effect, v
 
 def test_a_load_cell_that_shows_too_little_is_no_lighter_sheave(tmp_path, executor, monkeypatch):
     """A sheave lighter than its data sheet fits as well, with a rope lighter and limper in proportion."""
-    monkeypatch.setitem(virtual_lift.CHANNELS, "weight", Channel(column="weight", quantity="sheave_force", unit="N", noise=3.0))
-    folder = virtual_lift.campaign(tmp_path / "weak", {"effects.sensor_gain.weight": 0.87})
+    monkeypatch.setitem(
+        virtual_elevator.CHANNELS, "weight", Channel(column="weight", quantity="sheave_force", unit="N", noise=3.0)
+    )
+    folder = virtual_elevator.campaign(tmp_path / "weak", {"effects.sensor_gain.weight": 0.87})
     campaign = load_campaign(folder)
     found = diagnose(campaign, executor)
     assert found.baseline.chi_square < 1.2 * len(found.problem.data)
@@ -62,11 +64,11 @@ def test_a_stated_noise_that_the_rest_contradicts_is_not_believed():
     value = true * random.standard_normal(400) + 1e-3 * np.linspace(0.0, 1.0, 400)  # it drifts as well
     run = SimpleNamespace(rest=np.arange(400) < 200)
     for factor, taken in ((0.4, true), (0.8, 0.8 * true), (1.3, 1.3 * true), (3.0, true)):
-        stated = virtual_lift.CHANNELS["cw_low"].model_copy(update={"noise": factor * true * 1e3})
+        stated = virtual_elevator.CHANNELS["cw_low"].model_copy(update={"noise": factor * true * 1e3})
         # Two hundred samples give the noise within 9 %, twice over.
         assert sample_noise(run, stated, value) == pytest.approx(taken, rel=0.18)
 
 
 def test_a_noise_far_below_what_is_stated_may_be_coarse_digits():
-    run, channel = SimpleNamespace(rest=np.ones(200, bool)), virtual_lift.CHANNELS["cw_low"]
+    run, channel = SimpleNamespace(rest=np.ones(200, bool)), virtual_elevator.CHANNELS["cw_low"]
     assert sample_noise(run, channel, np.zeros(200)) == channel.noise * channel.scale

@@ -14,7 +14,7 @@ from comprope_system.identification.model_updating.add_effect import add, prepar
 from comprope_system.identification.prediction.replay import instrument
 from comprope_system.parallel.executors import threads
 
-from . import virtual_lift
+from . import virtual_elevator
 
 LATE = 0.04  # s
 RUNOUT = "effects.sheave_eccentricity.eccentricity"
@@ -30,11 +30,11 @@ def executor():
 
 def test_a_late_clock_is_found_and_is_no_effect(tmp_path, executor):
     """All channels come 40 ms late, which shifts the sheave's speed by several times its noise wherever the car accelerates."""
-    folder = virtual_lift.campaign(tmp_path / "late", {})
-    for file, *_ in virtual_lift.RUNS:
+    folder = virtual_elevator.campaign(tmp_path / "late", {})
+    for file, *_ in virtual_elevator.RUNS:
         lines = (folder / file).read_text().splitlines()
         table = np.genfromtxt(lines, delimiter=",", names=True)
-        for name in virtual_lift.CHANNELS:
+        for name in virtual_elevator.CHANNELS:
             table[name] = np.interp(table["time"] - LATE, table["time"], table[name])
         np.savetxt(folder / file, np.column_stack([table[name] for name in table.dtype.names]), delimiter=",", header=lines[0],
                    comments="", fmt="%.5f")  # fmt: skip
@@ -48,10 +48,10 @@ def test_a_late_clock_is_found_and_is_no_effect(tmp_path, executor):
 @pytest.fixture(scope="module")
 def turned(tmp_path_factory):
     """A campaign in which the sheave, out of true, stands at another angle at the start of every run."""
-    folder, random = virtual_lift.campaign(tmp_path_factory.mktemp("turned"), {}), np.random.default_rng(3)
-    for file, _, start, distance, changes in virtual_lift.RUNS:
+    folder, random = virtual_elevator.campaign(tmp_path_factory.mktemp("turned"), {}), np.random.default_rng(3)
+    for file, _, start, distance, changes in virtual_elevator.RUNS:
         hidden = {RUNOUT: 2e-3, PHASE: PHASES[file]}
-        table = virtual_lift.measure(file, start, distance, changes, hidden, random)
+        table = virtual_elevator.measure(file, start, distance, changes, hidden, random)
         table.to_csv(folder / file, index=False, float_format="%.5f")
     return load_campaign(folder)
 
@@ -59,8 +59,8 @@ def turned(tmp_path_factory):
 @pytest.mark.parametrize("mass", [1.0, 1.43])
 def test_a_rope_of_quite_another_mass_is_no_effect(tmp_path, executor, monkeypatch, mass):
     """Its swings come out of step with the model's before a record ends, from where derivatives alone do not lead back."""
-    monkeypatch.setitem(virtual_lift.PLANT, "rope.mass_per_length", mass)
-    ground = prepare(load_campaign(virtual_lift.campaign(tmp_path / "heavy", {})), executor)
+    monkeypatch.setitem(virtual_elevator.PLANT, "rope.mass_per_length", mass)
+    ground = prepare(load_campaign(virtual_elevator.campaign(tmp_path / "heavy", {})), executor)
     assert ground.initial_fit.chi_square > 100.0 * len(ground.problem.data)
     assert ground.fitted.chi_square < 1.2 * len(ground.problem.data)
     assert plant_estimates(ground.campaign, ground.fitted)["rope.mass_per_length"].value == pytest.approx(mass, rel=0.005)
@@ -88,8 +88,8 @@ def test_added_the_effect_acts_in_each_run_from_its_own_angle_on(turned, executo
 
 def test_an_effect_is_found_on_a_rope_of_quite_another_mass(tmp_path, executor, monkeypatch):
     """Where much swings, the misfit without the effect does not tell the mass: it is found with the effect."""
-    monkeypatch.setitem(virtual_lift.PLANT, "rope.mass_per_length", 1.0)
-    found = diagnose(load_campaign(virtual_lift.campaign(tmp_path / "light", {RUNOUT: 2e-3, PHASE: 0.7})), executor)
+    monkeypatch.setitem(virtual_elevator.PLANT, "rope.mass_per_length", 1.0)
+    found = diagnose(load_campaign(virtual_elevator.campaign(tmp_path / "light", {RUNOUT: 2e-3, PHASE: 0.7})), executor)
     best = found.ranking[0].fitted
     assert found.verdict == "sheave_eccentricity" and best.chi_square < 1.2 * len(found.problem.data)
     assert best.point.effects[RUNOUT] == pytest.approx(2e-3, rel=0.03)
@@ -97,14 +97,14 @@ def test_an_effect_is_found_on_a_rope_of_quite_another_mass(tmp_path, executor, 
 
 
 def test_samples_far_from_their_neighbours_are_no_error_of_the_model(tmp_path, executor):
-    campaign = load_campaign(virtual_lift.campaign(tmp_path / "spiked", {}))
+    campaign = load_campaign(virtual_elevator.campaign(tmp_path / "spiked", {}))
     clean = compare(campaign, executor)
     campaign.runs[0].values["cw_low"][[50, 200, 301]] += 0.05
     assert compare(campaign, executor).nrmse == pytest.approx(clean.nrmse, rel=0.02)
 
 
 def test_a_delay_hides_no_sample_that_is_in_view():
-    model = with_changes(virtual_lift.MODEL, {"effects.sensor_delay.cw_low": -1e-6})
+    model = with_changes(virtual_elevator.MODEL, {"effects.sensor_delay.cw_low": -1e-6})
     time = np.arange(0.0, 1.0, 0.01)
     value = np.where((time > 0.2) & (time < 0.7), np.sin(time), np.nan)
     shown = instrument(model, "cw_low", time, value)

@@ -1,7 +1,7 @@
-"""The journey from a model that fails to one that does not, on a lift whose sheave is badly fitted.
+"""The journey from a model that fails to one that does not, on an elevator whose sheave is badly fitted.
 
-The lift is measured on a finer mesh, at another step and with a plant a few per cent off; its groove runs 2 mm out of true, of
-which the model knows nothing. It fails here; this is missing; it is added; the error falls on the run that was not fitted.
+The elevator is measured on a finer mesh, at another step and with a plant a few per cent off; its groove runs 2 mm out of
+true, unknown to the model. It fails here; this is missing; it is added; the error falls on the run that was not fitted.
 """
 
 import json
@@ -29,7 +29,7 @@ from comprope_system.identification.model_updating.stepwise_selection import jou
 from comprope_system.identification.residuals.residual_correlation import residual_correlations
 from comprope_system.parallel.executors import threads
 
-from . import virtual_lift
+from . import virtual_elevator
 
 HIDDEN = {"effects.sheave_eccentricity.eccentricity": 2e-3, "effects.sheave_eccentricity.phase": 0.7}
 
@@ -42,7 +42,7 @@ def executor():
 
 @pytest.fixture(scope="module")
 def campaign(tmp_path_factory):
-    return load_campaign(virtual_lift.campaign(tmp_path_factory.mktemp("worn"), HIDDEN))
+    return load_campaign(virtual_elevator.campaign(tmp_path_factory.mktemp("worn"), HIDDEN))
 
 
 @pytest.fixture(scope="module")
@@ -151,7 +151,7 @@ def test_the_new_model_file_stands_for_itself(better, executor, tmp_path):
 
     dump(better.model, tmp_path / "new.toml", heading(better))
     text = (tmp_path / "new.toml").read_text()
-    assert text.startswith("# lift.toml with sheave_eccentricity, fitted to the campaign") and "±" in text
+    assert text.startswith("# elevator.toml with sheave_eccentricity, fitted to the campaign") and "±" in text
     model = load(tmp_path / "new.toml")
     again = compare(replace(better.before.campaign, model=model), executor, beside_the_model(better.fitted))
     assert again.validate_nrmse == pytest.approx(better.after.validate_nrmse, rel=1e-9)
@@ -191,12 +191,12 @@ def test_an_effect_with_its_shape_freed_is_one_step(monkeypatch):
     assert new.parts == whole.parts and np.array_equal(start, coefficients)
 
 
-# -- and a lift in which nothing is hidden -----------------------------------------------------------
+# -- and an elevator in which nothing is hidden -----------------------------------------------------------
 
 
-def test_a_sound_lift_is_called_adequate(capsys, tmp_path):
-    """Its plant is off as in the other lift, which is no reason to see an effect."""
-    folder = virtual_lift.campaign(tmp_path / "sound", {})
+def test_a_sound_elevator_is_called_adequate(capsys, tmp_path):
+    """Its plant is off as in the other elevator, which is no reason to see an effect."""
+    folder = virtual_elevator.campaign(tmp_path / "sound", {})
     out = tmp_path / "d.json"
     with pytest.raises(SystemExit) as done:
         cli.main(["diagnose", str(folder), "--json", str(out), "--report", str(tmp_path / "d.html"), "--jobs", "1"])

@@ -32,10 +32,10 @@ from comprope_system.identification.diagnosis.diagnose import diagnose
 from comprope_system.identification.model_updating.add_effect import add
 from comprope_system.parallel.executors import threads
 from comprope_system.presets.inputs import load_drive
-from comprope_system.simulation.elevator import driven
+from comprope_system.simulation.elevator import driven_elevator
 from comprope_system.simulation.trip_simulation import Timing, simulate
 
-from . import virtual_lift
+from . import virtual_elevator
 from .own_effects import EXAMPLES, FILES, SPRING
 from .rope_tower import TOWER, ride
 from .test_rope_kernels import agrees, differences, free, random_state, tangent
@@ -210,8 +210,8 @@ def test_the_fmu_gives_the_same_numbers_and_has_the_effect_inside(examples):
     trip = {"shaft": {"height": 12.0}, "trip": {"start_position": 1.0, "destination": 2.0, "start_time": 0.0}}
     tables = []
     for direct in (True, False):
-        with driven(model, load_drive(None, trip), direct) as lift:
-            tables.append(simulate(lift, ["low"], Timing(2.0, 0.02, "one-way")).table)
+        with driven_elevator(model, load_drive(None, trip), direct) as elevator:
+            tables.append(simulate(elevator, ["low"], Timing(2.0, 0.02, "one-way")).table)
     assert tables[0].equals(tables[1])
     fmu = fmu_cache.rope_fmu(1, model.own_effects)
     with zipfile.ZipFile(fmu) as archive:
@@ -246,10 +246,10 @@ def test_the_command_that_builds_fmus_asks_for_consent_too(examples, tmp_path):
 
 
 def test_what_only_the_user_knows_is_found_and_added(examples, tmp_path, monkeypatch):
-    """Rail joints shake the lift; its model names the file, but has no such table. One run to fit and one held out will do."""
-    monkeypatch.setattr(virtual_lift, "RUNS", virtual_lift.RUNS[::2])
-    folder = virtual_lift.campaign(tmp_path / "shaken", FILES | JOINTS)
-    dump(with_changes(virtual_lift.MODEL, FILES), folder / "lift.toml")
+    """Rail joints excite the elevator; its model names the file, but has no such table. One run to fit, one held out."""
+    monkeypatch.setattr(virtual_elevator, "RUNS", virtual_elevator.RUNS[::2])
+    folder = virtual_elevator.campaign(tmp_path / "shaken", FILES | JOINTS)
+    dump(with_changes(virtual_elevator.MODEL, FILES), folder / "elevator.toml")
     with threads() as executor:
         campaign = load_campaign(folder)
         found = diagnose(campaign, executor)

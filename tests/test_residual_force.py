@@ -1,7 +1,7 @@
 """A force that no effect of the library expresses is found at its place, with its size and what it follows.
 
-The lift that is measured has another mesh, step and plant than the model. Shares are of what the refitted plant leaves, which it
-bends for some of the force; they are judged on data left out, and so stay below one.
+The elevator that is measured has another mesh, step and plant than the model. Shares are of what the refitted plant leaves,
+which it bends for some of the force; they are judged on data left out, and so stay below one.
 """
 
 import json
@@ -25,28 +25,28 @@ from comprope_system.identification.residuals.regularised_deconvolution import d
 from comprope_system.parallel.executors import threads
 from comprope_system.report.json_output import plain
 
-from . import virtual_lift
+from . import virtual_elevator
 
 KICK, WAVE = 4e-3, 5.0  # m: how far and at which distances rails push the car
 STRETCH = 5e-4  # s2: how far the counterweight's end lags per acceleration
 TORQUE, WHEN, WIDTH = 30.0, 4.0, 0.4  # N m, s, s: a pulse on the sheave, of the largest value 2/3 TORQUE
 
 
-HIGHER = virtual_lift.MODEL.sensors[1].model_copy(update={"name": "car_mid", "height": 3.0})
+HIGHER = virtual_elevator.MODEL.sensors[1].model_copy(update={"name": "car_mid", "height": 3.0})
 
 
 def found_in(folder, measured):
-    """The residual force in a campaign whose lift is replayed by `measured`, of the model with its plant refitted.
+    """The residual force in a campaign whose elevator is replayed by `measured`, of the model with its plant refitted.
 
     One laser sees a push and a motion of the end much alike; a second on the car's side tells them apart.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(virtual_lift, "replay", measured)
-        sensors = (*virtual_lift.MODEL.sensors, HIGHER)
-        patch.setattr(virtual_lift, "MODEL", virtual_lift.MODEL.model_copy(update={"sensors": sensors}))
-        another = Channel(column="car_mid", sensor="car_mid", **virtual_lift.LASER)
-        patch.setattr(virtual_lift, "CHANNELS", virtual_lift.CHANNELS | {"car_mid": another})
-        campaign = load_campaign(virtual_lift.campaign(folder, {}))
+        patch.setattr(virtual_elevator, "replay", measured)
+        sensors = (*virtual_elevator.MODEL.sensors, HIGHER)
+        patch.setattr(virtual_elevator, "MODEL", virtual_elevator.MODEL.model_copy(update={"sensors": sensors}))
+        another = Channel(column="car_mid", sensor="car_mid", **virtual_elevator.LASER)
+        patch.setattr(virtual_elevator, "CHANNELS", virtual_elevator.CHANNELS | {"car_mid": another})
+        campaign = load_campaign(virtual_elevator.campaign(folder, {}))
     runs, start = campaign.of_role("fit"), np.zeros(len(PLANT_PARAMETERS))
     with threads() as executor:
         problem = build_problem(

@@ -21,8 +21,8 @@ from comprope_system.measurements import Trip
 from comprope_system.measurements.jerk_limited_profile import jerk_limited
 
 from .rope_tower import TOWER, way
-from .virtual_lift import LASER
-from .virtual_lift import MODEL as COARSE
+from .virtual_elevator import LASER
+from .virtual_elevator import MODEL as COARSE
 
 MODEL = with_changes(COARSE, {"rope.element_length": 0.05})
 

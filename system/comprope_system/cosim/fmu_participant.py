@@ -47,7 +47,7 @@ class FmuParticipant:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def prepare(self, start: float) -> None:
+    def enter_initialization(self, start: float) -> None:
         """See `Participant`."""
         with self._calls():
             self._instance.setupExperiment(startTime=start)
@@ -71,7 +71,7 @@ class FmuParticipant:
             values |= {name: _CASTS[kind](value) for name, value in zip(names, got, strict=True)}
         return values
 
-    def begin(self) -> None:
+    def exit_initialization(self) -> None:
         """See `Participant`."""
         with self._calls():
             self._instance.exitInitializationMode()

@@ -9,7 +9,7 @@ from comprope.fmi.instance import Instance
 from comprope.fmi.model_interface import Kind, ModelInterface, Simulator, Variable
 
 
-class DirectParticipant:
+class InProcessParticipant:
     """A participant that runs a model's engine as its FMU's face does."""
 
     def __init__(self, name: str, interface: ModelInterface, parameters: Mapping[str, Any]) -> None:
@@ -25,7 +25,7 @@ class DirectParticipant:
         """The present simulator; a new one is created when parameters change before the first step."""
         return self._instance.simulator
 
-    def prepare(self, start: float) -> None:
+    def enter_initialization(self, start: float) -> None:
         """See `Participant`."""
         self._instance.setup_experiment(start, None)
 
@@ -41,7 +41,7 @@ class DirectParticipant:
             values |= zip(names, self._instance.get_values(kind, [self._references[name][0] for name in names]), strict=True)
         return values
 
-    def begin(self) -> None:
+    def exit_initialization(self) -> None:
         """See `Participant`."""
         self._instance.exit_initialization()
 

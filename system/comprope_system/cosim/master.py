@@ -27,7 +27,7 @@ class Participant(Protocol):
     def name(self) -> str:
         """The name used by connections."""
 
-    def prepare(self, start: float) -> None:
+    def enter_initialization(self, start: float) -> None:
         """Enter initialization at the time `start` [s]; raises `InputError` for impossible parameters."""
 
     def set(self, values: Values) -> None:
@@ -36,7 +36,7 @@ class Participant(Protocol):
     def outputs(self) -> dict[str, Any]:
         """All outputs by name at the current time."""
 
-    def begin(self) -> None:
+    def exit_initialization(self) -> None:
         """Leave initialization."""
 
     def step(self, time: float, dt: float) -> None:
@@ -94,13 +94,13 @@ def _initialised(participants: Sequence[Participant], connections: Sequence[Conn
     """Consistent initial outputs."""
     known: Known = {}
     for participant in participants:
-        participant.prepare(start)
+        participant.enter_initialization(start)
     for _ in range(2):
         for participant in participants:
             participant.set(_inputs(participant.name, connections, known))
             known[participant.name] = participant.outputs()
     for participant in participants:
-        participant.begin()
+        participant.exit_initialization()
     return known
 
 

@@ -18,7 +18,7 @@ class PrescribedMotion:
         self._trips = dict(trips)
         self._time = 0.0
 
-    def prepare(self, start: float) -> None:
+    def enter_initialization(self, start: float) -> None:
         """See `Participant`."""
         self._time = start
 
@@ -33,7 +33,7 @@ class PrescribedMotion:
             for quantity in ("position", "velocity", "acceleration")
         }
 
-    def begin(self) -> None:
+    def exit_initialization(self) -> None:
         """See `Participant`."""
 
     def step(self, time: float, dt: float) -> None:

@@ -13,7 +13,7 @@ from comprope.rope.simulator.cosimulation import interface as rope_interface
 
 from ..cosim import Connection, Participant, fmu_cache
 from ..cosim.fmu_participant import FmuParticipant
-from ..cosim.in_process_participant import DirectParticipant
+from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.prescribed_motion import PrescribedMotion
 from ..measurements import Trip
 
@@ -26,7 +26,7 @@ ROPE_INPUTS = {"inputs_at_end": True, "derivative_inputs": True}
 
 
 @dataclass(frozen=True)
-class Lift:
+class Elevator:
     """The participants in their order of stepping, and their connections; `driven`: by a drive, not as measured."""
 
     participants: tuple[Participant, ...]
@@ -35,22 +35,22 @@ class Lift:
 
 
 @contextmanager
-def driven(model: RopeModel, drive: Drive, direct: bool = False) -> Iterator[Lift]:
+def driven_elevator(model: RopeModel, drive: Drive, direct: bool = False) -> Iterator[Elevator]:
     """Drive and rope, as FMUs or, with `direct`, as models in this process; freed at the end."""
     with ExitStack() as stack:
         interface = drive_interface(drive)
         if direct:
-            motion: Participant = DirectParticipant("motion", interface, {})
+            motion: Participant = InProcessParticipant("motion", interface, {})
         else:
             motion = stack.enter_context(FmuParticipant("motion", fmu_cache.drive_fmu(), start_values(interface)))
-        yield Lift((motion, _rope(stack, model, direct)), FORWARD + BACKWARD, True)
+        yield Elevator((motion, _rope(stack, model, direct)), FORWARD + BACKWARD, True)
 
 
 @contextmanager
-def prescribed(model: RopeModel, trips: Mapping[str, Trip], direct: bool = False) -> Iterator[Lift]:
+def prescribed_elevator(model: RopeModel, trips: Mapping[str, Trip], direct: bool = False) -> Iterator[Elevator]:
     """The rope under a car and counterweight that move as measured; see `PrescribedMotion`."""
     with ExitStack() as stack:
-        yield Lift((PrescribedMotion("motion", trips), _rope(stack, model, direct)), FORWARD, False)
+        yield Elevator((PrescribedMotion("motion", trips), _rope(stack, model, direct)), FORWARD, False)
 
 
 def start_values(interface: ModelInterface) -> dict[str, Any]:
@@ -61,6 +61,6 @@ def start_values(interface: ModelInterface) -> dict[str, Any]:
 def _rope(stack: ExitStack, model: RopeModel, direct: bool) -> Participant:
     interface = rope_interface(model)
     if direct:
-        return DirectParticipant("rope", interface, ROPE_INPUTS)
+        return InProcessParticipant("rope", interface, ROPE_INPUTS)
     path = fmu_cache.rope_fmu(len(model.sensors), model.own_effects)
     return stack.enter_context(FmuParticipant("rope", path, start_values(interface) | ROPE_INPUTS))

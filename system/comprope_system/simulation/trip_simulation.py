@@ -1,4 +1,4 @@
-"""One trip from start to end: run the lift, record its columns, sum it up."""
+"""One trip from start to end: run the elevator, record its columns, sum it up."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from comprope.errors import InputError
 
 from ..cosim import Sample, co_simulate
 from ..cosim.master import Coupling
-from .elevator import Lift
+from .elevator import Elevator
 from .result_columns import Column, columns, lateral_output, view_output
 
 Progress = Callable[[int, int], None]
@@ -50,14 +50,16 @@ class Timing:
             raise InputError(f"communication step = {self.step:g} s: above 0 to the duration, {self.duration:g} s, is accepted")
 
 
-def simulate(lift: Lift, sensors: Sequence[str], timing: Timing, progress: Progress | None = None) -> Simulated:
-    """Run the lift from time 0 and record every communication step.
+def simulate(elevator: Elevator, sensors: Sequence[str], timing: Timing, progress: Progress | None = None) -> Simulated:
+    """Run the elevator from time 0 and record every communication step.
 
     `sensors` are the names of the model's sensors in their order; `progress(count, total)` is called after each step.
     """
-    chosen = columns(sensors, lift.driven)
+    chosen = columns(sensors, elevator.driven)
     rows = []
-    for sample in co_simulate(lift.participants, lift.connections, timing.duration, timing.step, coupling=timing.coupling):
+    for sample in co_simulate(
+        elevator.participants, elevator.connections, timing.duration, timing.step, coupling=timing.coupling
+    ):
         rows.append(_row(sample, chosen, sensors))
         if progress:
             progress(sample.count, sample.total)

@@ -13,14 +13,14 @@ from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import RopeSimulator
 from comprope.rope.simulator.rope import CompensationRope
 
-from ..cosim.in_process_participant import DirectParticipant
+from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.master import Coupling
 from ..parallel.progress import Progress, no_progress
 from ..presets import model_path
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
 from ..presets.overrides import Changes, by_key
 from .animation.frames import Camera
-from .elevator import Lift, driven, prescribed
+from .elevator import Elevator, driven_elevator, prescribed_elevator
 from .measured_run import read_run
 from .result import SimulationResult
 from .trip_simulation import Timing
@@ -72,9 +72,9 @@ def simulate(
         measured = read_run(Path(motion.measured), rope_model.shaft.height, names)
         own, source = by_key(changes)
         rope_model = with_changes(rope_model, measured.changes | own, source)
-    elevator: AbstractContextManager[Lift]
+    elevator: AbstractContextManager[Elevator]
     if measured:
-        elevator, natural = prescribed(rope_model, measured.trips, not fmu), measured.end
+        elevator, natural = prescribed_elevator(rope_model, measured.trips, not fmu), measured.end
     else:
         elevator, natural = _driven(model, motion, rope_model, drive_changes, fmu)
     timing = Timing(natural if duration is None else duration, step, coupling)
@@ -94,10 +94,10 @@ def _advance(progress: Progress, camera: Camera | None, count: int, total: int) 
         camera(count, total)
 
 
-def _rope(elevator: Lift) -> CompensationRope:
+def _rope(elevator: Elevator) -> CompensationRope:
     """The rope of an elevator that is stepped in this process."""
     rope = elevator.participants[-1]
-    if not isinstance(rope, DirectParticipant) or not isinstance(rope.simulator, RopeSimulator):
+    if not isinstance(rope, InProcessParticipant) or not isinstance(rope.simulator, RopeSimulator):
         raise TypeError("an FMU does not show the rope's shape")
     return rope.simulator.rope
 
@@ -118,7 +118,7 @@ def _model(model: ModelInput, changes: Changes | None) -> tuple[RopeModel, dict[
 
 def _driven(
     model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]], fmu: bool
-) -> tuple[AbstractContextManager[Lift], float]:
+) -> tuple[AbstractContextManager[Elevator], float]:
     """The elevator with its drive in the model's shaft on the trip asked for, and how long to simulate it [s]."""
     height = rope_model.shaft.height
     limits = {"speed": motion.speed, "acceleration": motion.acceleration, "jerk": motion.jerk}
@@ -133,4 +133,4 @@ def _driven(
     }
     merged = {table: asked.get(table, {}) | changes.get(table, {}) for table in {*asked, *changes}}
     drive = read_drive(motion.drive, model, merged)
-    return driven(rope_model, drive, not fmu), first_trajectory(drive).end_time + SETTLE
+    return driven_elevator(rope_model, drive, not fmu), first_trajectory(drive).end_time + SETTLE

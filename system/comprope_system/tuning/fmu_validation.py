@@ -13,7 +13,7 @@ from comprope.rope.parameters import Sensor
 from ..cosim import co_simulate
 from ..reduced_model.string_dynamics import rest_shape
 from ..reduced_model.swing import SIDES, ReducedModel, Swing, largest_swing, swing_of_departures
-from ..simulation.elevator import driven
+from ..simulation.elevator import driven_elevator
 from ..simulation.result_columns import lateral_output, view_output
 from .search.profile_families import Route, trajectory_of
 
@@ -57,7 +57,7 @@ def simulate_route(
     trip_drive = drive.model_copy(update={"trip": drive.trip.model_copy(update=trip)})
     trajectory: ReferenceTrajectory = trajectory_of(trip_drive, route, REST_BEFORE)
     times, cars, samples = [], [], []
-    with driven(model.model_copy(update={"sensors": sensors}), trip_drive, direct) as elevator:
+    with driven_elevator(model.model_copy(update={"sensors": sensors}), trip_drive, direct) as elevator:
         for sample in co_simulate(elevator.participants, elevator.connections, trajectory.end_time + observation, STEP):
             rope_outputs = sample.outputs["rope"]
             times.append(sample.time)

@@ -11,7 +11,7 @@ from comprope_system import presets
 from comprope_system.cosim import fmu_cache
 from comprope_system.cosim.fmu_participant import FmuParticipant
 from comprope_system.presets.inputs import load_drive
-from comprope_system.simulation.elevator import driven
+from comprope_system.simulation.elevator import driven_elevator
 from comprope_system.simulation.trip_simulation import Timing, simulate
 
 # A coarse rope on a short trip: what is tested is the coupling, not the rope.
@@ -25,8 +25,8 @@ def model():
 
 
 def trip(model, direct=True, step=0.02, duration=2.0, coupling="two-way"):
-    with driven(model, load_drive(None, TRIP), direct) as lift:
-        return simulate(lift, [one.name for one in model.sensors], Timing(duration, step, coupling)).table
+    with driven_elevator(model, load_drive(None, TRIP), direct) as elevator:
+        return simulate(elevator, [one.name for one in model.sensors], Timing(duration, step, coupling)).table
 
 
 @pytest.fixture(scope="module")
@@ -44,10 +44,10 @@ def test_fmus_and_models_give_the_same_numbers(model, reference):
 def test_nothing_is_left_behind(model, monkeypatch, tmp_path):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     drive = load_drive(None, TRIP)
-    with driven(model, drive):
+    with driven_elevator(model, drive):
         assert any(tmp_path.iterdir())
     assert not any(tmp_path.iterdir())
-    with pytest.raises(RuntimeError), driven(model, drive):
+    with pytest.raises(RuntimeError), driven_elevator(model, drive):
         raise RuntimeError
     assert not any(tmp_path.iterdir())
 
@@ -78,25 +78,28 @@ def test_a_stale_fmu_in_dist_is_not_used(tmp_path, monkeypatch):
 
 def test_what_an_fmu_refuses_is_told_in_its_words():
     with FmuParticipant("motion", fmu_cache.drive_fmu(), {"profile.speed": 99.0}) as drive, pytest.raises(InputError) as caught:
-        drive.prepare(0.0)
-        drive.begin()
+        drive.enter_initialization(0.0)
+        drive.exit_initialization()
     assert "profile.speed = 99 m/s: 0.01 to 25 m/s is accepted" in str(caught.value)
     fmu = fmu_cache.drive_fmu()
     with FmuParticipant("motion", fmu, {"profile.sped": 1.0}) as drive, pytest.raises(InputError, match="sped is"):
-        drive.prepare(0.0)
+        drive.enter_initialization(0.0)
 
 
 def test_a_failing_step_is_told_in_the_fmus_words():
     with FmuParticipant("motion", fmu_cache.drive_fmu(), {}) as drive:
-        drive.prepare(0.0)
-        drive.begin()
+        drive.enter_initialization(0.0)
+        drive.exit_initialization()
         drive.step(0.0, 0.01)
         with pytest.raises(SimulationError, match=r"^motion: ElevatorDrive 'motion' at t = 0\.01 s: step from 5\.0 s: [^\n]*$"):
             drive.step(5.0, 0.01)
 
 
 def test_the_rope_that_cannot_reach_is_refused(model):
-    with pytest.raises((InputError, SimulationError), match="rope"), driven(model, load_drive(None, TRIP), direct=True) as lift:
-        lift.participants[1].prepare(0.0)
-        lift.participants[1].set({"car_position": 0.0, "counterweight_position": 100.0})
-        lift.participants[1].begin()
+    with (
+        pytest.raises((InputError, SimulationError), match="rope"),
+        driven_elevator(model, load_drive(None, TRIP), direct=True) as elevator,
+    ):
+        elevator.participants[1].enter_initialization(0.0)
+        elevator.participants[1].set({"car_position": 0.0, "counterweight_position": 100.0})
+        elevator.participants[1].exit_initialization()

@@ -1,6 +1,6 @@
-"""Measurements of a small virtual lift, as the tests of the identification use them.
+"""Measurements of a small virtual elevator, as the tests of the identification use them.
 
-The lift is the rope model itself, but on a finer mesh, at another step and with a plant a few per cent off, so that the model
+The elevator is the rope model itself, but on a finer mesh, at another step and with a plant a few per cent off, so that the model
 under test has something to be wrong about even when no effect is hidden.
 """
 
@@ -30,7 +30,7 @@ MODEL = validated(
             {"name": "car_low", "side": "car", "height": 0.5},
         ],
     },
-    "small lift",
+    "small elevator",
 )  # fmt: skip
 FINER = {"rope.element_length": 0.06}
 PLANT = {"rope.bending_stiffness": 21.2, "rope.mass_per_length": 1.18, "rope.bending_damping": 0.11}
@@ -51,10 +51,10 @@ END, SAMPLING, STEP = 9.0, 0.02, 0.003  # s; the model under test takes other st
 
 
 def campaign(folder: Path, hidden: dict[str, float], seed: int = 1) -> Path:
-    """Write a campaign of three runs into `folder`, with `hidden` effects in the lift but not in its model."""
+    """Write a campaign of three runs into `folder`, with `hidden` effects in the elevator but not in its model."""
     random = np.random.default_rng(seed)
     folder.mkdir(parents=True, exist_ok=True)
-    dump(MODEL, folder / "lift.toml")
+    dump(MODEL, folder / "elevator.toml")
     for file, _, start, distance, changes in RUNS:
         measure(file, start, distance, changes, hidden, random).to_csv(folder / file, index=False, float_format="%.5f")
     (folder / "campaign.toml").write_text(description())
@@ -65,9 +65,9 @@ def measure(file, start, distance, changes, hidden, random) -> pd.DataFrame:
     """The table of one run as instruments would have written it."""
     time = np.arange(0.0, END, SAMPLING)
     trip = Trip((jerk_limited(start, distance, 1.0, PHASES),), 0.0, "profile")
-    lift = with_changes(MODEL, FINER | PLANT | hidden)
+    elevator = with_changes(MODEL, FINER | PLANT | hidden)
     run = Run(file, "fit", changes, time, trip.position(time), trip, trip.mirrored(MODEL.shaft.height), {})
-    seen = replay(lift, run, CHANNELS, STEP).values
+    seen = replay(elevator, run, CHANNELS, STEP).values
     table = {"time": time, "car_position": trip.position(time) + 5e-4 * random.standard_normal(len(time))}
     for name, channel in CHANNELS.items():
         table[name] = seen[name] / channel.scale + channel.noise * random.standard_normal(len(time))
@@ -75,8 +75,8 @@ def measure(file, start, distance, changes, hidden, random) -> pd.DataFrame:
 
 
 def description() -> str:
-    """campaign.toml of the virtual lift."""
-    lines = ['name = "small lift"', 'model = "lift.toml"']
+    """campaign.toml of the virtual elevator."""
+    lines = ['name = "small elevator"', 'model = "elevator.toml"']
     for one in CHANNELS.values():
         keys = one.model_dump(exclude_none=True).items()
         lines += ["[[channels]]", *(f"{key} = {json.dumps(value)}" for key, value in keys)]
