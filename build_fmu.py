@@ -18,8 +18,8 @@ from comprope.drive.cosimulation import ENTRY as DRIVE_ENTRY  # noqa: E402
 from comprope.drive.cosimulation import interface as drive_interface  # noqa: E402
 from comprope.errors import CompropeError, InputError  # noqa: E402
 from comprope.fmi.package import Origin, build  # noqa: E402
-from comprope.fmi.reference_result import reference  # noqa: E402
-from comprope.fmi.ssp import Part, wires_by_name, write_ssp  # noqa: E402
+from comprope.fmi.reference_result import reference_result  # noqa: E402
+from comprope.fmi.ssp import Component, connections_by_name, write_ssp  # noqa: E402
 from comprope.rope.effects import RopeModel  # noqa: E402
 from comprope.rope.model_file import bundle, load  # noqa: E402
 from comprope.rope.parameters import Sensor  # noqa: E402
@@ -42,7 +42,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _built(options: argparse.Namespace) -> list[Path]:
-    """Build all that is asked for."""
+    """Build all FMUs and systems that the options name."""
     origin = Origin(_version(), (ROOT / "LICENSE").read_text("utf-8"))
     built = [build_rope(options.model, options.sensors, options.out, origin), build_drive(options.out, origin)]
     versions = [version for version, wanted in (("2.0", options.native), ("3.0", options.fmi3)) if wanted]
@@ -55,32 +55,33 @@ def _built(options: argparse.Namespace) -> list[Path]:
 
 
 def build_rope(model_file: Path, sensors: int | None, out: Path, origin: Origin) -> Path:
-    """The rope's FMU, its parameters starting at the values of a model file."""
+    """The rope's FMU; its parameters start at the values of a model file."""
     model = model_with(model_file, sensors)
     interface = rope_interface(model)
-    return build(interface, ["rope"], ROPE_ENTRY, out, origin, bundle(model), extra=reference(interface))
+    return build(interface, ["rope"], ROPE_ENTRY, out, origin, bundle(model), extra=reference_result(interface))
 
 
 def build_native_ropes(model_file: Path, sensors: int | None, out: Path, origin: Origin, versions: list[str]) -> list[Path]:
-    """The rope's FMUs that need no Python, for some versions of FMI and every system that can be compiled for here."""
+    """The rope's FMUs that need no Python, for some versions of FMI and every system that this one can compile for."""
     from comprope.native.linker import toolchain
-    from comprope.native.package import STANDARDS, build_native
+    from comprope.native.package import FMI_VERSIONS, build_native
 
     sys.stderr.write(f"compiling with {toolchain()}\n")
-    chosen = [one for one in STANDARDS if one.version in versions]
+    chosen = [one for one in FMI_VERSIONS if one.version in versions]
     return build_native(rope_interface(model_with(model_file, sensors)), out, origin, chosen)
 
 
 def build_drive(out: Path, origin: Origin) -> Path:
     """The drive's FMU."""
     interface = drive_interface()
-    return build(interface, ["drive"], DRIVE_ENTRY, out, origin, extra=reference(interface))
+    return build(interface, ["drive"], DRIVE_ENTRY, out, origin, extra=reference_result(interface))
 
 
 def build_ssp(model: RopeModel, rope: Path, drive: Path, out: Path) -> Path:
     """Drive and rope as one system: whatever has the same name is connected."""
-    parts = [Part("drive", drive, drive_interface()), Part("rope", rope, rope_interface(model), {"derivative_inputs": True})]
-    return write_ssp(out / "Elevator.ssp", "Elevator", parts, wires_by_name(parts))
+    rope_part = Component("rope", rope, rope_interface(model), {"derivative_inputs": True})
+    components = [Component("drive", drive, drive_interface()), rope_part]
+    return write_ssp(out / "Elevator.ssp", "Elevator", components, connections_by_name(components))
 
 
 def model_with(model_file: Path, sensors: int | None) -> RopeModel:
@@ -90,7 +91,7 @@ def model_with(model_file: Path, sensors: int | None) -> RopeModel:
 
 
 def with_sensors(model: RopeModel, count: int) -> RopeModel:
-    """The model with its first `count` sensors, and as many more as it lacks, half-way up on either side in turn."""
+    """The model with its first `count` sensors; missing ones are added half-way up, alternately on either side."""
     if not 0 <= count <= 1000:
         raise InputError(f"--sensors {count}: 0 to 1000 is accepted")
     taken = {sensor.name for sensor in model.sensors}

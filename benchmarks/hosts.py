@@ -2,7 +2,7 @@
 
     python benchmarks/hosts.py dist/CompensationRope-native.fmu [dist/CompensationRope-native-fmi3.fmu]
 
-The host is for FMI 2.0. The face under sanitizers also takes random calls from Python, for each FMU given.
+The host is for FMI 2.0. The C sources compiled under sanitizers also take random calls from Python, for each FMU given.
 Needs gcc (its address and undefined-behaviour sanitizers); valgrind if it is there, and for Windows ziglang and wine64.
 """
 
@@ -36,7 +36,7 @@ _SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g",
 
 
 def arguments(fmu: str, guid: str, binary: str, number: int) -> list[str]:
-    """What the host is told of the FMU."""
+    """The arguments of the host program for an FMU."""
     places = {one.name: str(one.valueReference) for one in read_model_description(fmu).modelVariables}
     names = ("car_position", "counterweight_position", "sheave.mass", "lateral_displacement[1]")
     return [binary, guid, *(places[name] for name in names), str(number)]
@@ -52,15 +52,15 @@ def run(command: list[str], line: int = -1) -> str:
 
 
 def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
-    """Every scenario with the face in C compiled under sanitizers; the kernels are as in the FMU."""
+    """Every scenario with the C sources compiled under sanitizers; the kernels are as in the FMU."""
     identity = model_source(tower(), SANITIZED, SANITIZED)
     generated = {"kernels.h": kernels_header(tower(), sizes({})), "model.c": identity}
-    for name, content in (linker.face_sources() | {name: text.encode() for name, text in generated.items()}).items():
+    for name, content in (linker.c_sources() | {name: text.encode() for name, text in generated.items()}).items():
         (stage / name).write_bytes(content)
     (stage / "kernels.o").write_bytes(machine_code(kernels({}), TARGETS["linux"]))
     sources = sorted(str(path) for path in stage.glob("*.c"))
     options = ["gcc", *_SANITIZED, f"-I{stage}", f"-I{linker.HEADERS}"]
-    binary, host = str(stage / "face.so"), str(stage / "host")
+    binary, host = str(stage / "sanitized.so"), str(stage / "host")
     shared = ["-shared", "-fPIC", "-fvisibility=hidden"]
     subprocess.run([*options, *shared, *sources, str(stage / "kernels.o"), "-o", binary, "-lm"], check=True)
     subprocess.run([*options, str(HOST), "-o", host, "-ldl", "-lpthread", "-lm"], check=True)
@@ -69,7 +69,7 @@ def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
 
 
 def shaken(fmus: list[str], stage: Path) -> Iterator[tuple[str, str]]:
-    """Random calls from Python on the face compiled by `sanitized`, which stands in for each FMU's binary."""
+    """Random calls from Python on the binary compiled by `sanitized`, in place of each FMU's own."""
     for fmu in fmus:
         copy = stage / Path(fmu).name
         with zipfile.ZipFile(fmu) as archive, zipfile.ZipFile(copy, "w") as sanitized_fmu:
@@ -92,7 +92,7 @@ def shaken(fmus: list[str], stage: Path) -> Iterator[tuple[str, str]]:
 def _sanitized_part(name: str, content: bytes, identity: str, stage: Path) -> bytes:
     if name == "modelDescription.xml":
         return content.replace(identity.encode(), SANITIZED.encode())
-    return (stage / "face.so").read_bytes() if name.endswith(".so") else content
+    return (stage / "sanitized.so").read_bytes() if name.endswith(".so") else content
 
 
 def in_valgrind(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:

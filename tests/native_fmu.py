@@ -11,7 +11,7 @@ from comprope.errors import InputError
 from comprope.fmi.model_interface import ModelInterface
 from comprope.fmi.package import Origin
 from comprope.native import linker
-from comprope.native.package import STANDARDS, build_native
+from comprope.native.package import FMI_VERSIONS, build_native
 from comprope.rope.model_file import load
 from comprope.rope.simulator.cosimulation import interface
 from comprope.user_cache import entry_folder, verified_files
@@ -43,7 +43,7 @@ def native_fmu(ending: str = "native") -> Path:
     folder = entry_folder("tests", _digest())
     with verified_files(folder, "*.fmu"):
         if not (made := folder / f"CompensationRope-{ending}.fmu").is_file():
-            build_native(tower(), folder, ORIGIN, STANDARDS, [linker.here()])
+            build_native(tower(), folder, ORIGIN, FMI_VERSIONS, [linker.host_target()])
     return made
 
 

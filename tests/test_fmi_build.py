@@ -10,7 +10,7 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
-from comprope.fmi.reference_result import DURATION, EVERY, IN, OUT, reference
+from comprope.fmi.reference_result import DURATION, INPUT_FILE, OUTPUT_FILE, OUTPUT_INTERVAL, reference_result
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import interface
 from comprope_system import presets
@@ -46,12 +46,12 @@ def test_the_reference_result_inside_is_met(built: tuple[Path, Path], which: int
     fmu = built[which]
     description = read_model_description(str(fmu))
     with zipfile.ZipFile(fmu) as archive:
-        found = [read_csv(archive.extract(name, tmp_path)) for name in (IN, OUT) if name in archive.namelist()]
+        found = [read_csv(archive.extract(name, tmp_path)) for name in (INPUT_FILE, OUTPUT_FILE) if name in archive.namelist()]
     expected, given, step = found[-1], found[0] if len(found) > 1 else None, float(description.defaultExperiment.stepSize)
     names = [name for name in expected.dtype.names if name != "time"]
     nominal = {one.name: float(one.nominal or 1.0) for one in description.modelVariables}
     times = {"stop_time": DURATION, "step_size": step, "output_interval": step}
-    made = simulate_fmu(str(fmu), **times, input=given, output=names)[:: round(EVERY / step)]
+    made = simulate_fmu(str(fmu), **times, input=given, output=names)[:: round(OUTPUT_INTERVAL / step)]
     for name in names:
         # The file holds nine digits, and fmpy's times differ in their last ones.
         assert made[name] == pytest.approx(expected[name], rel=1e-6, abs=1e-6 * nominal[name]), name
@@ -70,5 +70,5 @@ def test_bad_input_is_one_line_and_leaves_no_file(tmp_path: Path, arguments: tup
 
 def test_in_a_low_shaft_the_reference_rises_less() -> None:
     model = with_changes(load(presets.model_path("tower50")), {"shaft.height": 1.0, "rope.element_length": 0.1})
-    last = reference(interface(model))[IN].decode().splitlines()[-1]
+    last = reference_result(interface(model))[INPUT_FILE].decode().splitlines()[-1]
     assert [float(value) for value in last.split(",")] == [4.0, 0.25, 0.75]

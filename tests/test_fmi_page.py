@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from comprope.drive.cosimulation import interface as drive_interface
-from comprope.fmi.documentation import page
+from comprope.fmi.documentation import documentation_page
 from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.model_file import load
 from comprope.rope.simulator.cosimulation import interface as rope_interface
@@ -45,7 +45,7 @@ def test_every_parameter_is_in_a_picture_or_known_to_be_in_none(model: ModelInte
 
 
 def test_the_page_holds_every_picture_and_variable() -> None:
-    text = page(ROPE, "1.2.3", systems="Linux", fmi="3.0")
+    text = documentation_page(ROPE, "1.2.3", systems="Linux", fmi="3.0")
     assert text.count("<svg ") == len(ROPE.pictures) == 4
     assert all(f"<code>{one.name}</code>" in text for one in ROPE.variables)
     assert "FMI 3.0 co-simulation" in text and "fmi3Error" in text

@@ -14,7 +14,7 @@ import comprope
 from comprope.errors import InputError, SimulationError
 from comprope.fmi import error_reporting
 from comprope.fmi.instance import Instance, InstanceState, pack, unpack
-from comprope.fmi.model_description import completed
+from comprope.fmi.model_description import complete_description
 from comprope.fmi.model_interface import ModelInterface, Variable, parameters_of
 from comprope.fmi.package import Origin, build
 from comprope.fmi.pythonfmu_slave import slave_class
@@ -201,7 +201,7 @@ def test_display_units_belong_to_their_unit() -> None:
 def test_every_start_value_comes_back_from_the_description() -> None:
     model = interface(1.0 / 3.0)
     xml = ET.tostring(slave_class(model)(instance_name="x").to_xml())
-    root = ET.fromstring(completed(xml, model, "1", "{guid}"))
+    root = ET.fromstring(complete_description(xml, model, "1", "{guid}"))
     starts = [element[0].get("start") for element in root.iter("ScalarVariable")]
     assert float(starts[REFS["spring.place"]] or "nan") == 1.0 / 3.0
     assert starts[-1] is None

@@ -21,12 +21,12 @@ from fmpy.validation import validate_fmu
 
 import comprope
 from comprope.errors import CompropeError, InputError
-from comprope.fmi.model_description import completed
+from comprope.fmi.model_description import complete_description
 from comprope.fmi.pythonfmu_slave import slave_class
-from comprope.fmi.reference_result import IN, OUT
+from comprope.fmi.reference_result import INPUT_FILE, OUTPUT_FILE
 from comprope.native import linker
 from comprope.native.c_source import quoted
-from comprope.native.fmi2_package import universal
+from comprope.native.fmi2_package import universal_binary
 from comprope.native.llvm_ir import require_no_python
 from comprope.native.targets import TARGETS
 from comprope.rope.runtime.status import WORDS, require_fine
@@ -73,7 +73,7 @@ def test_valid_and_complete(fmu: Path) -> None:
 
 def test_same_description_as_the_fmu_in_python(fmu: Path) -> None:
     slave = type("CompensationRope", (slave_class(tower()),), {})(instance_name="one")
-    other = ET.fromstring(completed(ET.tostring(slave.to_xml()), tower(), "1.2.3", ""))
+    other = ET.fromstring(complete_description(ET.tostring(slave.to_xml()), tower(), "1.2.3", ""))
     with zipfile.ZipFile(fmu) as archive:
         own = ET.fromstring(archive.read("modelDescription.xml"))
     for tag in ("ModelVariables", "ModelStructure", "UnitDefinitions", "DefaultExperiment"):
@@ -100,7 +100,7 @@ def test_needs_nothing_but_the_c_library(fmu: Path, tmp_path: Path) -> None:
 
 def unpacked(fmu: Path, folder: Path) -> Path:
     """The binary for this system."""
-    target = TARGETS[linker.here()]
+    target = TARGETS[linker.host_target()]
     with zipfile.ZipFile(fmu) as archive:
         return Path(archive.extract(f"binaries/{target.folder}/CompensationRope.{target.extension}", folder))
 
@@ -142,7 +142,7 @@ def test_simulates_in_fmpy(fmu: Path) -> None:
 
 def test_the_reference_result_inside_is_met(fmu: Path, tmp_path: Path) -> None:
     with zipfile.ZipFile(fmu) as archive:
-        given, expected = (read_csv(archive.extract(name, tmp_path)) for name in (IN, OUT))
+        given, expected = (read_csv(archive.extract(name, tmp_path)) for name in (INPUT_FILE, OUTPUT_FILE))
     names = [name for name in expected.dtype.names if name != "time"]
     found = simulate_fmu(str(fmu), stop_time=4.0, step_size=0.01, output_interval=0.01, input=given, output=names)[::5]
     nominal = {one.name: one.nominal for one in tower().variables}
@@ -257,9 +257,9 @@ model, out, fmu, version, licence, *effects = sys.argv[1:]
 table = as_table(load(Path(model))) | {"own_effects": effects}
 # Not computed again, since that would compile the kernels once more.
 archive = zipfile.ZipFile(fmu)
-package.reference = lambda _: {name: archive.read(name) for name in archive.namelist() if name.startswith("resources/")}
+package.reference_result = lambda _: {name: archive.read(name) for name in archive.namelist() if name.startswith("resources/")}
 rope = interface(validated(table, model))
-package.build_native(rope, Path(out), Origin(version, licence), package.STANDARDS, [linker.here()])
+package.build_native(rope, Path(out), Origin(version, licence), package.FMI_VERSIONS, [linker.host_target()])
 """
 
 
@@ -383,14 +383,14 @@ def test_without_a_compiler_the_cure_is_told(monkeypatch: pytest.MonkeyPatch) ->
 def test_without_zig_only_this_system_is_compiled_for(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(linker, "_zig", lambda: False)
     monkeypatch.setattr(shutil, "which", lambda name: name)
-    assert linker.linkable() == [linker.here()]
+    assert linker.linkable_targets() == [linker.host_target()]
     expected = "cc, for this system only; `pip install ziglang` brings a compiler for Linux, Windows and"
     assert linker.toolchain().startswith(expected)
 
 
 def test_one_file_for_several_processors() -> None:
     parts: list[Any] = [b"\xcf\xfa\xed\xfe" + number.to_bytes(4, "little") * 2 + bytes(5000) for number in (7, 12)]
-    whole = universal(parts)
+    whole = universal_binary(parts)
     for place, part in enumerate(parts):
         at = int.from_bytes(whole[8 + 20 * place + 8 :][:4], "big")
         assert at % 16384 == 0 and whole[at : at + len(part)] == part

@@ -20,7 +20,7 @@ from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from comprope.fmi.reference_result import IN, OUT
+from comprope.fmi.reference_result import INPUT_FILE, OUTPUT_FILE
 
 from .fmi3_pair import Pair3, Slave
 from .fmi_pair import SMALL, random_call
@@ -87,7 +87,7 @@ def test_both_depend_on_the_same(fmu: Path) -> None:
 
 def test_the_same_bits_as_in_fmi_2_and_the_reference_result(fmu: Path, tmp_path: Path) -> None:
     with zipfile.ZipFile(fmu) as archive:
-        given, expected = (read_csv(archive.extract(name, tmp_path)) for name in (IN, OUT))
+        given, expected = (read_csv(archive.extract(name, tmp_path)) for name in (INPUT_FILE, OUTPUT_FILE))
     names = [name for name in expected.dtype.names if name != "time"]
     same = {"stop_time": 4.0, "step_size": 0.01, "output_interval": 0.01, "input": given, "output": names}
     two, three = (simulate_fmu(str(path), **same) for path in (native_fmu(), fmu))

@@ -25,11 +25,11 @@ def system(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_valid_and_connected_by_name(system: Path) -> None:
     found = read_ssd(str(system)).system  # checks the description against the standard's schema
     assert [one.name for one in found.elements] == ["drive", "rope"]
-    wires = {(one.startElement, one.startConnector, one.endElement, one.endConnector) for one in found.connections}
+    connections = {(one.startElement, one.startConnector, one.endElement, one.endConnector) for one in found.connections}
     ends = ("car", "counterweight")
     motions = {f"{end}_{rate}" for end in ends for rate in ("position", "velocity", "acceleration")}
     forward = {("drive", name, "rope", name) for name in motions}
-    assert wires == forward | {("rope", f"{end}_end_tension", "drive", f"{end}_end_tension") for end in ends}
+    assert connections == forward | {("rope", f"{end}_end_tension", "drive", f"{end}_end_tension") for end in ends}
 
 
 def test_runs_in_fmpy(system: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -40,12 +40,12 @@ def test_runs_in_fmpy(system: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert result["drive.car_position"][-1] > 1.0
     # The rope lags one step behind the drive.
     assert np.array_equal(result["rope.car_position"], result["drive.car_position"])
-    # Whatever rings because each part hears the other a step late: the force stays near the sheave's weight.
+    # Whatever rings because each component gets the inputs from the other a step late: the force stays near the sheave's weight.
     assert result["rope.sheave_force"] == pytest.approx(1177.2, rel=0.15)
 
 
 def with_start_values(instantiate: Any) -> Any:
-    """What fmpy does to instantiate a part, and then its connectors get the values that its FMU starts with."""
+    """What fmpy does to instantiate a component, and then its connectors get the values that its FMU starts with."""
 
     def call(component: Any, *arguments: Any) -> None:
         instantiate(component, *arguments)

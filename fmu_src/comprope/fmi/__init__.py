@@ -1,4 +1,4 @@
-"""The face of a model to the Functional Mock-up Interface 2.0 (co-simulation), whatever the model computes.
+"""Any model as an FMU for co-simulation, after the Functional Mock-up Interface 2.0.
 
-`engine` says what a model must offer, `face` makes a pythonfmu slave of it, `build` an FMU.
+`model_interface` defines what a model must offer, `pythonfmu_slave` makes a slave of it, `package` an FMU.
 """

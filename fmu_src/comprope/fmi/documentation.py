@@ -1,4 +1,4 @@
-"""The documentation inside an FMU: one HTML page with its variables and what its host needs."""
+"""The documentation inside an FMU: one HTML page with its variables and its requirements."""
 
 from pathlib import Path
 
@@ -9,11 +9,13 @@ from .model_interface import ModelInterface, Variable
 _PAGE = Path(__file__).with_name("page.html")
 
 
-def page(interface: ModelInterface, version: str, python: str = "", needs: str = "", systems: str = "", fmi: str = "2.0") -> str:
+def documentation_page(
+    interface: ModelInterface, version: str, python: str = "", needs: str = "", systems: str = "", fmi: str = "2.0"
+) -> str:
     """The HTML page of a model's FMU for a version of FMI.
 
-    `python` is the oldest that runs it and `needs` the packages it must have; without them, `systems` are
-    those that it has binaries for.
+    `python` is the oldest version that runs it and `needs` the packages it requires; an FMU without Python has
+    binaries for `systems` instead.
     """
     environment = Environment(autoescape=True, trim_blocks=True, keep_trailing_newline=True)
     environment.filters |= {"range": _range, "caption": _caption}
@@ -25,7 +27,7 @@ def page(interface: ModelInterface, version: str, python: str = "", needs: str =
 
 
 def _caption(picture: str) -> str:
-    """What an SVG picture says that it shows."""
+    """The title of an SVG picture."""
     return picture.partition("<title>")[2].partition("</title>")[0]
 
 

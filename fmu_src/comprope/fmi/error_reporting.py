@@ -1,10 +1,10 @@
-"""How an error leaves a slave: one sentence, the status "fatal", and a host that lives on.
+"""Error reporting of a slave: one sentence and the status "fatal", without ending the host process.
 
-pythonfmu knows two ways to report an error. A step that returns False becomes fmi2Discard, which
-tells importers to try again: fmpy then repeats or leaves out the step without a word. An exception
+pythonfmu has two ways to report an error. A step that returns False becomes fmi2Discard, which asks
+importers to try again: fmpy then repeats or skips the step without a message. An exception
 becomes fmi2Fatal, with the exception's `repr` in the importer's log; fmpy and libcosim stop there,
-and it is the only way for calls other than steps. So every error is raised. (fmi2Error would be
-right, but pythonfmu's binary offers no way to return it.)
+and it is the only way for calls other than steps. Hence every error is raised. (fmi2Error would be
+correct, but pythonfmu's binary cannot return it.)
 """
 
 import sys
@@ -15,14 +15,14 @@ from ..errors import CompropeError
 
 
 class SlaveError(Exception):
-    """An error on its way to the importer, which logs its `repr`."""
+    """An error for the importer, which logs its `repr`."""
 
     def __repr__(self) -> str:
         return str(self)
 
 
 def sentence(error: BaseException) -> str:
-    """The error in one line: the text of our own errors; kind and place of any other."""
+    """The error in one line: the text of a `CompropeError`; type and location of any other."""
     if isinstance(error, CompropeError):
         return "; ".join(str(error).splitlines())
     frames = traceback.extract_tb(error.__traceback__)
@@ -37,4 +37,4 @@ def report(text: str) -> None:
         sys.stderr.write(text + "\n")
         sys.stderr.flush()
     except (OSError, ValueError, AttributeError):
-        return  # a host without a standard error, or with a closed one, has only its log
+        return  # without an open standard error the host has only its log

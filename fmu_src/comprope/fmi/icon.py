@@ -1,4 +1,4 @@
-"""The icon of an FMU: a rope around a sheave, as a PNG drawn without any library for pictures."""
+"""The icon of an FMU: a rope around a sheave, as a PNG, drawn without an image library."""
 
 import struct
 import zlib

@@ -1,4 +1,4 @@
-"""One run of a model, from start values to the last step: what may be set, read and stepped when."""
+"""One instance of a model, from start values to the last step: which call is allowed when, and its saved states."""
 
 import json
 import struct
@@ -16,7 +16,7 @@ _LENGTHS = struct.Struct("<QQ")
 
 @dataclass(frozen=True)
 class InstanceState:
-    """Where a run stands. Floats keep every bit: they are written with all the digits they need."""
+    """The state of an instance apart from its simulator. Floats keep every bit: they are written with all digits needed."""
 
     model: str
     values: dict[str, Any]
@@ -30,13 +30,13 @@ class InstanceState:
 
 
 def pack(state: InstanceState, simulator: bytes) -> bytes:
-    """The run as bytes, valid in any process that has the same FMU."""
+    """The state of instance and simulator as bytes, valid in any process that has the same FMU."""
     head = json.dumps(asdict(state)).encode()
     return _MAGIC + _LENGTHS.pack(len(head), len(simulator)) + head + simulator
 
 
 def unpack(data: bytes, model: str) -> tuple[InstanceState, bytes]:
-    """The run and the simulator's state; raises `InputError` for bytes that are not a state of `model`."""
+    """The states of instance and simulator; raises `InputError` for bytes that are not a state of `model`."""
     try:
         state, simulator = _parts(data)
     except (ValueError, TypeError, struct.error) as error:
@@ -48,20 +48,20 @@ def unpack(data: bytes, model: str) -> tuple[InstanceState, bytes]:
 
 def _parts(data: bytes) -> tuple[InstanceState, bytes]:
     if not data.startswith(_MAGIC):
-        raise ValueError("no state")
+        raise ValueError("no saved state")
     start = len(_MAGIC) + _LENGTHS.size
     head, simulator = _LENGTHS.unpack(data[len(_MAGIC) : start])
     if len(data) != start + head + simulator:
-        raise ValueError("cut or padded")
+        raise ValueError("wrong length")
     return InstanceState(**json.loads(data[start : start + head])), data[start + head :]
 
 
 class Instance:
-    """A model's values by reference (their place among its variables), and its simulator once there is one.
+    """A model's values by reference (their index among its variables), and its simulator once created.
 
-    Before the run begins the simulator is made when an output is asked for, and made anew after a value has changed.
-    Every refusal is an `InputError`; a refused call changes nothing. While `failure` holds a sentence there are no
-    steps and no outputs, so that not even an importer that overlooks errors can take old values for new ones.
+    Before the steps begin the simulator is created when an output is read, and again after a value has changed.
+    A refused call raises `InputError` and changes nothing. While `failure` holds a sentence there are no steps and no
+    outputs, so that not even an importer that ignores errors can take old values for new ones.
     """
 
     def __init__(self, interface: ModelInterface) -> None:
@@ -79,11 +79,11 @@ class Instance:
 
     @property
     def simulator(self) -> Simulator:
-        """The model's simulator, made from the present values if there is none."""
+        """The model's simulator, created from the present values if there is none."""
         return self._ensure_simulator()
 
     def setup_experiment(self, start: float, stop: float | None) -> None:
-        """Take over the start time and, if there is one, the stop time [s]; refused once the run has begun."""
+        """Set the start time and, if there is one, the stop time [s]; refused once steps have begun."""
         if self._running:
             raise InputError("start and stop time are accepted only before the run begins")
         self._start = self.time = start
@@ -105,7 +105,7 @@ class Instance:
         self._values = changed
 
     def exit_initialization(self) -> None:
-        """Fix the parameters and make the simulator; refuses impossible values, all problems in one sentence."""
+        """Fix the parameters and create the simulator; refuses invalid values, all problems in one sentence."""
         self._ensure_simulator()
         self._running = True
 
@@ -124,7 +124,7 @@ class Instance:
         self.time = time + dt
 
     def save_state(self, model: str) -> bytes:
-        """The whole run as bytes that only `model` accepts."""
+        """The whole state as bytes that only `model` accepts."""
         simulator = self._simulator.get_state() if self._running and self._simulator is not None else b""
         state = InstanceState(
             model=model,
@@ -140,7 +140,7 @@ class Instance:
         return pack(state, simulator)
 
     def restore_state(self, data: bytes, model: str) -> None:
-        """Go back to a saved run, bit for bit."""
+        """Return to a saved state, bit for bit."""
         state, simulator_state = unpack(data, model)
         simulator = self._simulator_in_state(state, simulator_state) if state.running else None
         self._values, self._first_inputs, self._outputs = state.values, state.first_inputs, state.outputs
@@ -172,7 +172,7 @@ class Instance:
         return validation.finite_problem(variable, value)
 
     def _ensure_simulator(self) -> Simulator:
-        """The simulator, made from the present values if there is none."""
+        """The simulator, created from the present values if there is none."""
         if self._simulator is None:
             if problems := validation.range_problems(self._settable, self._values):
                 raise InputError("; ".join(problems))
@@ -197,7 +197,7 @@ class Instance:
         return {one.name: source[one.name] for one in self.interface.of_role(role)}
 
     def _checked_outputs(self, simulator: Simulator) -> dict[str, Value]:
-        """The simulator's outputs, every one finite."""
+        """The simulator's outputs; raises `SimulationError` unless all are finite."""
         raw = simulator.outputs()
         outputs = self.interface.of_role("output")
         values = {one.name: one.cast(raw[one.name]) for one in outputs}

@@ -1,7 +1,7 @@
-"""Complete the model description that pythonfmu writes: units, ranges, dependencies, identity.
+"""Model descriptions: completes that of pythonfmu with units, ranges, dependencies and identity.
 
-pythonfmu 0.7.0 leaves out all that and InitialUnknowns, which the standard demands, and rounds
-start values to 16 digits, which does not bring every number back.
+pythonfmu 0.7.0 omits these and InitialUnknowns, which the standard requires, and rounds start values to 16 digits, which
+does not preserve every number.
 """
 
 import xml.etree.ElementTree as ET
@@ -14,23 +14,23 @@ FIXED_DATE = "1980-01-01T00:00:00Z"
 _CAPABILITIES = ("canGetAndSetFMUstate", "canSerializeFMUstate", "canHandleVariableCommunicationStepSize")
 
 
-def completed(xml: bytes, interface: ModelInterface, version: str, guid: str) -> bytes:
+def complete_description(xml: bytes, interface: ModelInterface, version: str, guid: str) -> bytes:
     """The model description of `interface`, from the one pythonfmu wrote; the same for the same arguments."""
     root = ET.fromstring(xml)
     tool = f"comprope {version}, {root.get('generationTool')}"
-    root.attrib.update(guid=guid, **about(interface, version) | {"generationTool": tool})
-    _only(root, "CoSimulation").attrib.update(dict.fromkeys(_CAPABILITIES, "true"))
+    root.attrib.update(guid=guid, **general_attributes(interface, version) | {"generationTool": tool})
+    _required_child(root, "CoSimulation").attrib.update(dict.fromkeys(_CAPABILITIES, "true"))
     root.insert(1, unit_definitions(interface.variables))
-    root.insert(list(root).index(_only(root, "ModelVariables")), default_experiment(interface))
-    for element, variable in zip(_only(root, "ModelVariables"), interface.variables, strict=True):
+    root.insert(list(root).index(_required_child(root, "ModelVariables")), default_experiment(interface))
+    for element, variable in zip(_required_child(root, "ModelVariables"), interface.variables, strict=True):
         element[0].attrib.update(type_attributes(variable))
-    _rebuild_structure(_only(root, "ModelStructure"), interface)
+    _rebuild_structure(_required_child(root, "ModelStructure"), interface)
     ET.indent(root)
     return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
 
 
-def about(interface: ModelInterface, version: str) -> dict[str, str]:
-    """Where an FMU comes from and what it is, in attributes that every version of FMI has."""
+def general_attributes(interface: ModelInterface, version: str) -> dict[str, str]:
+    """Description and origin of an FMU, in attributes that every version of FMI has."""
     return {
         "description": interface.description,
         "author": "comprope",
@@ -42,7 +42,7 @@ def about(interface: ModelInterface, version: str) -> dict[str, str]:
     }
 
 
-def _only(root: ET.Element, tag: str) -> ET.Element:
+def _required_child(root: ET.Element, tag: str) -> ET.Element:
     found = root.find(tag)
     if found is None:
         raise ValueError(f"pythonfmu wrote a model description without {tag}")
@@ -50,7 +50,7 @@ def _only(root: ET.Element, tag: str) -> ET.Element:
 
 
 def unit_definitions(variables: Iterable[Variable]) -> ET.Element:
-    """The units of real variables, each in base units, with those to display them in."""
+    """The units of real variables in base units, with their display units."""
     displays: dict[str, set[str]] = {}
     for one in variables:
         if one.kind == "real":
@@ -65,13 +65,13 @@ def unit_definitions(variables: Iterable[Variable]) -> ET.Element:
 
 
 def default_experiment(interface: ModelInterface) -> ET.Element:
-    """Times and step that an importer takes when told nothing else."""
+    """Start time, stop time and step size that an importer uses by default."""
     times = {"startTime": 0.0, "stopTime": interface.stop_time, "stepSize": interface.step_size}
     return ET.Element("DefaultExperiment", {name: repr(value) for name, value in times.items()})
 
 
 def type_attributes(variable: Variable) -> dict[str, str]:
-    """Attributes of the type element: start value, and what a number has besides."""
+    """Attributes of the type element: start value; of numbers also range, unit and nominal value."""
     found: dict[str, Value | None] = {"start": variable.start}
     if variable.kind in ("real", "integer"):
         found |= {"min": variable.minimum, "max": variable.maximum}
@@ -88,7 +88,7 @@ def _text(value: Value) -> str:
 
 
 def _rebuild_structure(structure: ET.Element, interface: ModelInterface) -> None:
-    """List every output twice: as it depends on inputs while stepping, and, at the start, on everything."""
+    """List every output twice: with its dependencies on inputs while stepping, and as an initial unknown."""
     structure.clear()
     places = {one.name: place for place, one in enumerate(interface.variables, 1)}
     outputs = interface.of_role("output")

@@ -1,4 +1,4 @@
-"""What a model offers to be driven through FMI: named variables, and engines that step."""
+"""What a model must offer to be simulated through FMI: named variables, and a simulator."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -18,8 +18,8 @@ TYPES: dict[str, type] = {"real": float, "integer": int, "boolean": bool, "strin
 class Variable:
     """One variable of a model, in SI units.
 
-    A parameter is fixed once the run has started. Parameters and inputs have a start value.
-    `depends_on` names, for an output, the inputs it follows at once, without a step in between.
+    A parameter is fixed once the steps have begun. Parameters and inputs have a start value.
+    `depends_on` names, for an output, the inputs with direct feedthrough.
     """
 
     name: str
@@ -36,18 +36,18 @@ class Variable:
 
     @property
     def variability(self) -> str:
-        """Variability in the words of FMI."""
+        """Variability as defined by FMI."""
         if self.role == "parameter":
             return "fixed"
         return "continuous" if self.kind == "real" else "discrete"
 
     def cast(self, value: Any) -> Value:
-        """The value as the plain Python type of this variable."""
+        """The value as the Python type of this variable."""
         return TYPES[self.kind](value)
 
 
 class Simulator(Protocol):
-    """One instance of a model after its parameters are known; it owns its whole state."""
+    """Simulation of a model with given parameters; it owns the whole state."""
 
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
         """Advance from `time` to `time + dt` [s]; raises a `CompropeError` that says what, where and when."""
@@ -56,21 +56,21 @@ class Simulator(Protocol):
         """Every output by name, at the time reached."""
 
     def get_state(self) -> bytes:
-        """The whole state, enough to go on bit for bit in another process."""
+        """The whole state, for a bitwise equal restart in any process."""
 
     def set_state(self, state: bytes) -> None:
-        """Restore what `get_state` gave to an engine with the same parameters."""
+        """Restore a state of `get_state` of a simulator with the same parameters."""
 
 
 @dataclass(frozen=True)
 class ModelInterface:
-    """All that the face and the builder need to know of a model.
+    """A model as slave, package and documentation need it.
 
-    `create(parameters, inputs, start_time)` makes an engine from values by name; it raises
+    `create(parameters, inputs, start_time)` makes a simulator from values by name; it raises
     `InputError` with one sentence that holds all problems, joined by "; ".
-    `stop_time` and `step_size` [s] are what an importer uses when told nothing else. `pictures` are SVG files that show
-    what the variables are. `motion(time)` gives real inputs by name for the run that is kept as a reference, over 4 s; others
-    hold their start values.
+    `stop_time` and `step_size` [s] are the defaults for an importer. `pictures` are SVG files that show what the
+    variables are. `reference_inputs(time)` gives real inputs by name for the simulation of 4 s whose result is kept as a
+    reference; other inputs hold their start values.
     """
 
     name: str
@@ -80,7 +80,7 @@ class ModelInterface:
     stop_time: float = 10.0
     step_size: float = 0.001
     pictures: tuple[Path, ...] = ()
-    motion: Callable[[float], Mapping[str, float]] = lambda _time: {}
+    reference_inputs: Callable[[float], Mapping[str, float]] = lambda _time: {}
 
     def of_role(self, role: Role) -> tuple[Variable, ...]:
         """The variables of one role, in their order."""
@@ -90,7 +90,7 @@ class ModelInterface:
 def parameters_of(prefix: str, component: type[Component], values: Mapping[str, float]) -> tuple[Variable, ...]:
     """The declared quantities of a component as parameters `prefix.name`.
 
-    `values` gives start values by quantity name; what it lacks starts at its neutral value.
+    `values` gives start values by quantity name; others start at their neutral values.
     """
     return tuple(
         Variable(

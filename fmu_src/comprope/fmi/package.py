@@ -1,7 +1,7 @@
-"""Build an FMU: pythonfmu packs a slave and a copy of our code, we complete it and write it reproducibly.
+"""Build an FMU that runs in Python: pythonfmu packs a slave and a copy of this code; the result is reproducible.
 
-The copy of the code and the slave's script carry the hash of their content in their names. A Python
-process knows a module by its name alone, so two FMUs, or two builds of one, would otherwise run
+The copy of the code and the slave's script have the hash of their content in their names. A Python
+process identifies a module by its name alone, so two FMUs, or two builds of one, would otherwise run
 whichever code was loaded first.
 """
 
@@ -21,22 +21,22 @@ from pathlib import Path
 
 from ..atomic_files import atomic_write
 from ..errors import CompropeError, InputError
-from .documentation import page
+from .documentation import documentation_page
 from .icon import icon
-from .model_description import completed
+from .model_description import complete_description
 from .model_interface import ModelInterface
 from .validation import interface_problems
 
 COMPROPE = Path(__file__).parent.parent
-# What of this package runs inside an FMU.
-FACE = (
+# The modules of this package that run inside an FMU.
+FMI_MODULES = (
     "__init__", "error_reporting", "instance", "model_interface", "pythonfmu_slave", "pythonfmu_workarounds", "units",
     "validation",
 )  # fmt: skip
 FIXED_TIME = (1980, 1, 1, 0, 0, 0)
 DESCRIPTION = "modelDescription.xml"
 
-_ENTRY = '''\
+_BUNDLED_MODULE = '''\
 """The model of this FMU, made from the files beside this one; written by build_fmu.py."""
 
 from pathlib import Path
@@ -49,7 +49,7 @@ HERE = Path(__file__).parent
 Slave = slave_class(INTERFACE)
 '''
 
-_SCRIPT = '''\
+_SLAVE_SCRIPT = '''\
 """The slave that pythonfmu loads, again for each instance; the code is in {package}. Written by build_fmu.py."""
 
 import sys
@@ -73,7 +73,7 @@ class {name}(Slave):
 
 @dataclass(frozen=True)
 class Origin:
-    """What stands in an FMU about where it comes from, and the oldest Python that runs it."""
+    """Version and licence written into an FMU, and the oldest Python that runs it."""
 
     version: str
     licence: str
@@ -82,7 +82,7 @@ class Origin:
 
 @dataclass(frozen=True)
 class Bundle:
-    """Files by path that make a package, named by their content."""
+    """The files of a Python package by path; the package is named by their content."""
 
     stem: str
     files: Mapping[str, bytes] = field(repr=False)
@@ -94,7 +94,7 @@ class Bundle:
 
     @property
     def needs(self) -> str:
-        """What the code imports that neither Python nor the FMU brings, in the words of `pip install`."""
+        """The packages that the code imports besides Python's own and the FMU's, as arguments of `pip install`."""
         trees = [ast.parse(content) for path, content in self.files.items() if path.endswith(".py")]
         nodes = [node for tree in trees for node in ast.walk(tree)]
         names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
@@ -119,45 +119,45 @@ def build(
     root: Path = COMPROPE,
     extra: Mapping[str, bytes] | None = None,
 ) -> Path:
-    """Write `<out>/<name>.fmu`, whole or not at all, and return its path.
+    """Write `<out>/<name>.fmu` atomically and return its path.
 
-    `packages` are the folders in `root` that the model needs as subpackages of `comprope`, besides the face.
+    `packages` are the folders in `root` that the model needs as subpackages of `comprope`, besides `fmi`.
     `entry` is source text that defines INTERFACE inside the copied package, where imports are relative and
     the `data` files lie in the folder HERE. `extra` files go into the FMU by their path there. The same arguments
     give the same bytes.
-    Raises `InputError` for an interface that does not hold together or a folder that cannot be written.
+    Raises `InputError` for an inconsistent interface or a folder that cannot be written.
     """
     if problems := interface_problems(interface):
         raise InputError("; ".join(problems))
-    files = _sources(packages, root) | dict(data or {}) | {"bundled.py": _ENTRY.format(entry=entry).encode()}
+    files = _source_files(packages, root) | dict(data or {}) | {"bundled.py": _BUNDLED_MODULE.format(entry=entry).encode()}
     bundle = Bundle("_".join(["comprope", *packages]), files)
-    content = _packed(interface.name, bundle, origin)
-    content |= _documentation(interface, origin, bundle.needs) | dict(extra or {})
+    content = _pack_with_pythonfmu(interface.name, bundle, origin)
+    content |= _documentation_files(interface, origin, bundle.needs) | dict(extra or {})
     xml = content.pop(DESCRIPTION)
-    guid = str(uuid.UUID(digest(content | {DESCRIPTION: completed(xml, interface, origin.version, "")})[:32]))
-    content[DESCRIPTION] = completed(xml, interface, origin.version, guid)
+    guid = str(uuid.UUID(digest(content | {DESCRIPTION: complete_description(xml, interface, origin.version, "")})[:32]))
+    content[DESCRIPTION] = complete_description(xml, interface, origin.version, guid)
     with atomic_write(out / f"{interface.name}.fmu") as path:
-        path.write_bytes(zipped(content))
+        path.write_bytes(reproducible_zip(content))
     return out / f"{interface.name}.fmu"
 
 
-def _sources(packages: Iterable[str], root: Path) -> dict[str, bytes]:
-    """The files to copy: the modules at the top, the face, and whole subpackages."""
+def _source_files(packages: Iterable[str], root: Path) -> dict[str, bytes]:
+    """The files to copy: the modules at the top, FMI_MODULES, and whole subpackages."""
     files = {path.name: path.read_bytes() for path in COMPROPE.glob("*.py")}
-    files |= {f"fmi/{name}.py": (COMPROPE / "fmi" / f"{name}.py").read_bytes() for name in FACE}
+    files |= {f"fmi/{name}.py": (COMPROPE / "fmi" / f"{name}.py").read_bytes() for name in FMI_MODULES}
     for package in packages:
         inside = (path for path in (root / package).rglob("*") if path.is_file() and "__pycache__" not in path.parts)
         files |= {path.relative_to(root).as_posix(): path.read_bytes() for path in inside}
     return files
 
 
-def _packed(name: str, bundle: Bundle, origin: Origin) -> dict[str, bytes]:
-    """What pythonfmu packs into an FMU, by path. It runs in a process of its own, which keeps its imports out of ours."""
+def _pack_with_pythonfmu(name: str, bundle: Bundle, origin: Origin) -> dict[str, bytes]:
+    """The files of the FMU that pythonfmu packs, by path; it runs in its own process, to keep its imports separate."""
     script = f"{name}_{bundle.digest}.py"
     needs = f"Python {origin.python} or newer and: pip install {bundle.needs}"
     with tempfile.TemporaryDirectory() as folder:
         stage = Path(folder)
-        (stage / script).write_text(_SCRIPT.format(name=name, package=bundle.package, needs=needs), encoding="utf-8")
+        (stage / script).write_text(_SLAVE_SCRIPT.format(name=name, package=bundle.package, needs=needs), encoding="utf-8")
         for path, content in bundle.files.items():
             target = stage / bundle.package / path
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -171,11 +171,11 @@ def _packed(name: str, bundle: Bundle, origin: Origin) -> dict[str, bytes]:
             return {entry: packed.read(entry) for entry in packed.namelist() if "__pycache__" not in entry}
 
 
-def _documentation(interface: ModelInterface, origin: Origin, needs: str) -> dict[str, bytes]:
+def _documentation_files(interface: ModelInterface, origin: Origin, needs: str) -> dict[str, bytes]:
     pythonfmu = next(path for path in metadata.files("pythonfmu") or () if path.name == "LICENSE")
     return {
         "model.png": icon(),
-        "documentation/index.html": page(interface, origin.version, origin.python, needs).encode(),
+        "documentation/index.html": documentation_page(interface, origin.version, origin.python, needs).encode(),
         "documentation/licenses/license.txt": origin.licence.encode(),
         "documentation/licenses/pythonfmu.txt": pythonfmu.read_binary(),
     }
@@ -189,8 +189,8 @@ def digest(files: Mapping[str, bytes]) -> str:
     return total.hexdigest()
 
 
-def zipped(content: Mapping[str, bytes]) -> bytes:
-    """A ZIP file that depends on nothing but its content: sorted, one date, one set of permissions."""
+def reproducible_zip(content: Mapping[str, bytes]) -> bytes:
+    """A ZIP file that depends only on its content: sorted, with one date and one set of permissions."""
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         for path in sorted(content):

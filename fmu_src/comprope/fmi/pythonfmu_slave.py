@@ -1,4 +1,4 @@
-"""A pythonfmu slave for any model: a thin skin around a `Instance` that lets no error out untold."""
+"""A pythonfmu slave for any model: it forwards calls to an `Instance` and reports every error."""
 
 import sys
 from collections.abc import Callable, Sequence
@@ -19,30 +19,30 @@ _FMI_TYPES = {"real": Real, "integer": Integer, "boolean": Boolean, "string": St
 _INITIAL = {"parameter": Fmi2Initial.exact, "output": Fmi2Initial.calculated, "input": None}
 
 
-def slave_class(interface: ModelInterface) -> type["Face"]:
+def slave_class(interface: ModelInterface) -> type["ModelSlave"]:
     """The slave of a model; an FMU's script subclasses it under the model's name."""
-    return type("Slave", (Face,), {"interface": interface, "__doc__": interface.description})
+    return type("Slave", (ModelSlave,), {"interface": interface, "__doc__": interface.description})
 
 
 def guarded(method: Callable[P, R]) -> Callable[P, R]:
-    """Let nothing but a `SlaveError` out of a method that pythonfmu calls."""
+    """Turn every exception of a method that pythonfmu calls into a `SlaveError`."""
 
     @wraps(method)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
         try:
             return method(*args, **kwargs)
         except BaseException as error:
-            slave: Face = args[0]  # type: ignore[assignment]
+            slave: ModelSlave = args[0]  # type: ignore[assignment]
             slave.fail(error)
 
     return call
 
 
-class Face(Fmi2Slave):
+class ModelSlave(Fmi2Slave):
     """One instance of a model as an FMI slave.
 
-    Whatever goes wrong raises a `SlaveError`, which importers see as fmi2Fatal (see `failure`), and
-    bars further steps and outputs until the instance is reset or an earlier state is restored.
+    Every error raises a `SlaveError`, which importers see as fmi2Fatal (see `error_reporting`), and
+    prevents further steps and outputs until the instance is reset or an earlier state is restored.
     """
 
     interface: ClassVar[ModelInterface]
@@ -51,20 +51,20 @@ class Face(Fmi2Slave):
         super().__init__(**kwargs)
         if "logger" in kwargs:  # inside an FMU
             leave_cleanly(self.resources, type(self).__name__)
-            if self.resources in sys.path:  # put there to load us; all is imported by now
+            if self.resources in sys.path:  # put there to load this module; all is imported by now
                 sys.path.remove(self.resources)
         self._instance = Instance(self.interface)
         for one in self.interface.variables:
-            self.register_variable(_declared(one), nested=False)
+            self.register_variable(_pythonfmu_variable(one), nested=False)
 
     @guarded
     def setup_experiment(self, start_time: float, stop_time: float | None = None, tolerance: float | None = None) -> None:
-        """Take over start and stop time [s]; accuracy is the affair of the model's own parameters."""
+        """Set start and stop time [s]; the tolerance is not used, since the model's parameters set its accuracy."""
         self._instance.setup_experiment(start_time, stop_time)
 
     @guarded
     def exit_initialization_mode(self) -> None:
-        """Make the model from the values set; refuses impossible ones, all problems in one sentence."""
+        """Create the simulator from the values set; refuses invalid ones, all problems in one sentence."""
         self._instance.exit_initialization()
 
     @guarded
@@ -122,7 +122,7 @@ class Face(Fmi2Slave):
         self._instance.restore_state(state, self._identity())
 
     # These two are called on the class, where there is no instance to keep alive after an
-    # exception (see `binary`); so states are bytes from the outset, checked when set.
+    # exception (see `pythonfmu_workarounds`); hence states are always bytes, checked when set.
 
     @staticmethod
     def _fmu_state_to_bytes(state: bytes) -> bytes:
@@ -133,7 +133,7 @@ class Face(Fmi2Slave):
         return state
 
     def fail(self, error: BaseException) -> NoReturn:
-        """Report an error, bar further steps and outputs, and raise it as a `SlaveError`."""
+        """Report an error, prevent further steps and outputs, and raise it as a `SlaveError`."""
         what = error_reporting.sentence(error)
         text = f"{self.interface.name} '{self.instance_name}' at t = {self._instance.time:.9g} s: {what}"
         if self._instance.failure is None:
@@ -143,11 +143,11 @@ class Face(Fmi2Slave):
         raise error_reporting.SlaveError(text) from None
 
     def _identity(self) -> str:
-        """Model and package; inside an FMU the package is named by its content, so no other build has the same."""
+        """Model and package; inside an FMU the package is named by its content, hence different for every build."""
         return f"{self.interface.name} of {__name__.split('.')[0]}"
 
 
-def _declared(variable: Variable) -> Any:
+def _pythonfmu_variable(variable: Variable) -> Any:
     return _FMI_TYPES[variable.kind](
         variable.name,
         causality=Fmi2Causality[variable.role],

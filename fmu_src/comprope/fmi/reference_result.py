@@ -1,34 +1,34 @@
-"""A result to compare with, kept inside an FMU: a short run of the model, and what it gives."""
+"""The reference result kept inside an FMU: inputs and outputs of a short simulation."""
 
 from collections.abc import Iterable, Sequence
 
 from .instance import Instance
 from .model_interface import ModelInterface
 
-IN, OUT = "resources/reference_in.csv", "resources/reference_out.csv"
-DURATION, EVERY = 4.0, 0.05  # s, of the run and from one row of results to the next
+INPUT_FILE, OUTPUT_FILE = "resources/reference_in.csv", "resources/reference_out.csv"
+DURATION, OUTPUT_INTERVAL = 4.0, 0.05  # s, of the simulation, and between rows of results
 
 
-def reference(interface: ModelInterface) -> dict[str, bytes]:
-    """Files by their path in the FMU: the real outputs every 50 ms, and inputs that move for every communication step."""
+def reference_result(interface: ModelInterface) -> dict[str, bytes]:
+    """Files by path in the FMU: real outputs every 50 ms, and the inputs that change, for every communication step."""
     instance, places = Instance(interface), {one.name: place for place, one in enumerate(interface.variables)}
-    moved = list(interface.motion(0.0))
+    moved = list(interface.reference_inputs(0.0))
     outputs = [one.name for one in interface.of_role("output") if one.kind == "real"]
     given, found, dt = [], [], interface.step_size
     for count in range(round(DURATION / dt) + 1):
         time = count * dt
-        values = list(interface.motion(time).values())
+        values = list(interface.reference_inputs(time).values())
         instance.set_values("real", [places[name] for name in moved], values)
         if count == 0:
             instance.exit_initialization()
         given.append([time, *values])
-        if count % round(EVERY / dt) == 0:
+        if count % round(OUTPUT_INTERVAL / dt) == 0:
             found.append([time, *instance.get_values("real", [places[name] for name in outputs])])
         instance.do_step(time, dt)
-    # Accelerations are second differences of positions, so inputs keep every digit. Nine are enough for results: what
-    # other systems' sines and cosines may change lies behind them.
-    inputs = {IN: _table(moved, given, ".17g")} if moved else {}
-    return inputs | {OUT: _table(outputs, found, ".9g")}
+    # Accelerations are second differences of positions, so inputs keep every digit. Nine digits suffice for results:
+    # differences between the systems' sines and cosines are smaller.
+    inputs = {INPUT_FILE: _table(moved, given, ".17g")} if moved else {}
+    return inputs | {OUTPUT_FILE: _table(outputs, found, ".9g")}
 
 
 def _table(names: Sequence[str], rows: Iterable[Sequence[object]], form: str) -> bytes:

@@ -1,4 +1,4 @@
-"""Unit names as FMI wants them: each taken apart into powers of SI base units."""
+"""Units as FMI defines them: powers of SI base units."""
 
 from collections import Counter
 
@@ -29,7 +29,7 @@ DISPLAY: dict[str, tuple[str, float]] = {
 def exponents(unit: str) -> dict[str, int]:
     """Powers of the base units in a unit such as `N.s/m2`; raises `InputError` for one that is not known.
 
-    Symbols are joined by dots, all after the one stroke divide, and a digit behind a symbol is its power.
+    Symbols are joined by dots, those after the slash divide, and a digit after a symbol is its power.
     """
     powers: Counter[str] = Counter()
     over, _, under = unit.partition("/")
@@ -47,7 +47,7 @@ def exponents(unit: str) -> dict[str, int]:
 
 
 def display_factor(display_unit: str, unit: str) -> float:
-    """How many display units make one unit; raises `InputError` if the two do not belong together."""
+    """Factor from a unit to a display unit; raises `InputError` if they are of different dimension."""
     base, factor = DISPLAY.get(display_unit, ("", 0.0))
     if base != unit:
         raise InputError(f"display unit {display_unit}: not one of {unit}; known are {', '.join(DISPLAY)}")

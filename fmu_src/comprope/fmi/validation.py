@@ -1,4 +1,4 @@
-"""Is a value, a step or an interface acceptable? Each problem is one sentence for the user."""
+"""Validation of values, steps and interfaces; each problem is one sentence for the user."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -6,10 +6,10 @@ from typing import Any
 
 from .model_interface import ModelInterface, Variable
 
-_TIME_TOLERANCE = 1e-6  # of a step: what importers that add up their steps drift by is far less
+_TIME_TOLERANCE = 1e-6  # of a step; importers that add up their steps drift by far less
 
 
-def shown(value: Any, unit: str) -> str:
+def format_value(value: Any, unit: str) -> str:
     """A value with its unit, as in `0.5 m`."""
     text = f"{value:.6g}" if isinstance(value, float) else repr(value)
     return text if unit == "1" else f"{text} {unit}"
@@ -45,11 +45,11 @@ def _range_problem(variable: Variable, value: Any) -> str | None:
     high = math.inf if variable.maximum is None else variable.maximum
     if math.isfinite(value) and low <= value <= high:
         return None
-    return f"{variable.role} {variable.name} = {shown(value, variable.unit)}: {range_text(variable)} ({variable.help})"
+    return f"{variable.role} {variable.name} = {format_value(value, variable.unit)}: {range_text(variable)} ({variable.help})"
 
 
 def step_problem(time: float, dt: float, reached: float, stop: float | None) -> str | None:
-    """A sentence if a step of `dt` from `time` cannot follow a run that has reached `reached` [s]."""
+    """A sentence if a step of `dt` from `time` is not possible when the simulation is at `reached` [s]."""
     if not (math.isfinite(dt) and dt > 0.0):
         return f"step size = {dt} s: a finite number above 0 is accepted"
     if not abs(time - reached) <= _tolerance(time, dt):
@@ -67,7 +67,7 @@ def _tolerance(time: float, dt: float) -> float:
 
 
 def interface_problems(interface: ModelInterface) -> list[str]:
-    """What is wrong with the declaration of a model's variables; for authors of models, while building."""
+    """Problems in the declaration of a model's variables; for authors of models, while building."""
     names = [one.name for one in interface.variables]
     inputs = {one.name for one in interface.of_role("input")}
     found = [f"{name}: declared more than once" for name in sorted({name for name in names if names.count(name) > 1})]

@@ -1,41 +1,41 @@
-"""The native FMU for FMI 2.0."""
+"""What is specific to the native FMU for FMI 2.0: model description and paths of binaries."""
 
 import struct
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
 from ..fmi.icon import icon
-from ..fmi.model_description import completed
+from ..fmi.model_description import complete_description
 from ..fmi.model_interface import ModelInterface
 from ..fmi.pythonfmu_slave import slave_class
-from .fmi_version import Standard
+from .fmi_version import FmiVersion
 from .targets import TARGETS
 
 
-def description(interface: ModelInterface, version: str, guid: str) -> bytes:
-    """The model description: that of the FMU in Python, but for what the binary itself can do."""
+def model_description(interface: ModelInterface, version: str, guid: str) -> bytes:
+    """The model description: that of the FMU in Python, except for the capabilities of the binary."""
     slave = type(interface.name, (slave_class(interface),), {})(instance_name="one")
-    root = ET.fromstring(completed(ET.tostring(slave.to_xml()), interface, version, guid))
+    root = ET.fromstring(complete_description(ET.tostring(slave.to_xml()), interface, version, guid))
     root.set("generationTool", f"comprope {version}")
-    face = root.find("CoSimulation")
-    assert face is not None
-    face.attrib.update(needsExecutionTool="false", canNotUseMemoryManagementFunctions="false")
+    cosimulation = root.find("CoSimulation")
+    assert cosimulation is not None
+    cosimulation.attrib.update(needsExecutionTool="false", canNotUseMemoryManagementFunctions="false")
     return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
 
 
-def placed(name: str, binaries: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Binaries by their path in the FMU; those of several processors for one system go into one file."""
+def binary_files(name: str, binaries: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Binaries by their path in the FMU; those for several processors of one system are joined in one file."""
     found: dict[str, list[bytes]] = {}
     for target, binary in binaries.items():
         place = TARGETS[target]
         found.setdefault(f"binaries/{place.folder}/{name}.{place.extension}", []).append(binary)
-    return {path: universal(parts) if len(parts) > 1 else parts[0] for path, parts in found.items()}
+    return {path: universal_binary(parts) if len(parts) > 1 else parts[0] for path, parts in found.items()}
 
 
-_FAT_MAGIC, _ALIGNMENT = 0xCAFEBABE, 14  # pages of 16 kB suit both processors
+_FAT_MAGIC, _ALIGNMENT = 0xCAFEBABE, 14  # powers of two; pages of 16 kB suit both processors
 
 
-def universal(parts: list[bytes]) -> bytes:
+def universal_binary(parts: list[bytes]) -> bytes:
     """One file for macOS from binaries of several processors."""
     at, table, body = 1 << _ALIGNMENT, b"", b""
     for part in parts:
@@ -47,4 +47,4 @@ def universal(parts: list[bytes]) -> bytes:
     return head + bytes((1 << _ALIGNMENT) - len(head)) + body
 
 
-FMI2 = Standard("2.0", "native", description, placed, lambda: {"model.png": icon()})
+FMI2 = FmiVersion("2.0", "native", model_description, binary_files, lambda: {"model.png": icon()})

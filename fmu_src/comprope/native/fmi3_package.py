@@ -1,12 +1,12 @@
-"""The native FMU for FMI 3.0: the same variables, with the same value references, and the time besides."""
+"""What is specific to the native FMU for FMI 3.0: the same variables and value references, and the time."""
 
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
 from ..fmi.icon import SIZE, icon
-from ..fmi.model_description import about, default_experiment, type_attributes, unit_definitions
+from ..fmi.model_description import default_experiment, general_attributes, type_attributes, unit_definitions
 from ..fmi.model_interface import ModelInterface, Variable
-from .fmi_version import Standard
+from .fmi_version import FmiVersion
 from .targets import TARGETS
 
 _TYPES = {"real": "Float64", "integer": "Int32", "boolean": "Boolean"}
@@ -14,9 +14,10 @@ _INITIAL = {"parameter": {"initial": "exact"}, "output": {"initial": "calculated
 _ABLE = ("canGetAndSetFMUState", "canSerializeFMUState", "canHandleVariableCommunicationStepSize")
 
 
-def description(interface: ModelInterface, version: str, token: str) -> bytes:
+def model_description(interface: ModelInterface, version: str, token: str) -> bytes:
     """The model description, from the same declarations as that for FMI 2.0."""
-    given = {"fmiVersion": "3.0", "modelName": interface.name, "instantiationToken": token} | about(interface, version)
+    given = {"fmiVersion": "3.0", "modelName": interface.name, "instantiationToken": token}
+    given |= general_attributes(interface, version)
     root = ET.Element("fmiModelDescription", given | {"variableNamingConvention": "structured"})
     ET.SubElement(root, "CoSimulation", {"modelIdentifier": interface.name} | dict.fromkeys(_ABLE, "true"))
     root.append(unit_definitions(interface.variables))
@@ -37,13 +38,13 @@ def _attributes(variable: Variable, place: int) -> dict[str, str]:
 
 
 def _time(place: int) -> dict[str, str]:
-    """The independent variable, which FMI 3.0 demands."""
+    """The independent variable, which FMI 3.0 requires."""
     given = {"name": "time", "valueReference": str(place), "description": "time reached"}
     return given | {"causality": "independent", "variability": "continuous", "unit": "s"}
 
 
 def _add_structure(structure: ET.Element, interface: ModelInterface) -> None:
-    """List every output as it depends on inputs while stepping, and as one that at the start depends on everything."""
+    """List every output with its dependencies on inputs while stepping, and as an initial unknown."""
     places = {one.name: place for place, one in enumerate(interface.variables)}
     outputs = interface.of_role("output")
     for one in outputs:
@@ -53,14 +54,14 @@ def _add_structure(structure: ET.Element, interface: ModelInterface) -> None:
         ET.SubElement(structure, "InitialUnknown", valueReference=str(places[one.name]))
 
 
-def placed(name: str, binaries: Mapping[str, bytes]) -> dict[str, bytes]:
+def binary_files(name: str, binaries: Mapping[str, bytes]) -> dict[str, bytes]:
     """Binaries by their path in the FMU."""
     places = {target: TARGETS[target] for target in binaries}
     return {f"binaries/{one.platform}/{name}.{one.extension}": binaries[target] for target, one in places.items()}
 
 
-def icons() -> dict[str, bytes]:
-    """The icon, and the file that says that there is one."""
+def icon_files() -> dict[str, bytes]:
+    """The icon, and the file that declares it."""
     root = ET.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
     picture = ET.SubElement(root, "GraphicalRepresentation")
     corners = {"x1": "0", "y1": "0", "x2": str(SIZE), "y2": str(SIZE)}
@@ -71,4 +72,4 @@ def icons() -> dict[str, bytes]:
     return {"terminalsAndIcons/terminalsAndIcons.xml": text, "terminalsAndIcons/icon.png": icon()}
 
 
-FMI3 = Standard("3.0", "native-fmi3", description, placed, icons)
+FMI3 = FmiVersion("3.0", "native-fmi3", model_description, binary_files, icon_files)

@@ -1,4 +1,4 @@
-"""What the FMU for one version of the FMI standard has of its own; the binaries serve all versions."""
+"""What differs between FMUs for different versions of the FMI standard; they share the binaries."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -7,15 +7,15 @@ from ..fmi.model_interface import ModelInterface
 
 
 @dataclass(frozen=True)
-class Standard:
+class FmiVersion:
     """A version of FMI.
 
-    `ending` is added to the FMU's name. `description(interface, version, identity)` writes the model description,
-    `placed(name, binaries)` gives the binaries of some targets their paths, and `icons()` are the files of the icon.
+    `ending` is added to the FMU's name. `model_description(interface, version, identity)` writes the model description,
+    `binary_files(name, binaries)` gives the binaries of some targets by path, and `icon_files()` the files of the icon.
     """
 
     version: str
     ending: str
-    description: Callable[[ModelInterface, str, str], bytes]
-    placed: Callable[[str, Mapping[str, bytes]], dict[str, bytes]]
-    icons: Callable[[], dict[str, bytes]]
+    model_description: Callable[[ModelInterface, str, str], bytes]
+    binary_files: Callable[[str, Mapping[str, bytes]], dict[str, bytes]]
+    icon_files: Callable[[], dict[str, bytes]]

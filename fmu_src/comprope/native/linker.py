@@ -1,4 +1,4 @@
-"""Compile the face in C and link it with the kernels, for each system there is a compiler for."""
+"""Compiles the C sources and links them with the kernels, for each system that there is a compiler for."""
 
 import importlib.util
 import platform
@@ -16,44 +16,44 @@ import fmpy
 from ..errors import InputError
 from .targets import TARGETS, Target
 
-FACE = Path(__file__).with_name("c")
+C_SOURCES = Path(__file__).with_name("c")
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # those of the FMI standard, under its BSD licence
-# Sums stay in the order in which they are written, as in the kernels; what is not exported stays out of other FMUs' way.
+# Sums keep their order, as in the kernels; names that are not exported do not collide with those of other FMUs.
 _OPTIONS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-fno-sanitize=all", "-shared")
 
 
-def face_sources() -> dict[str, bytes]:
-    """The C files of the face by name."""
-    return {path.name: path.read_bytes() for pattern in ("*.c", "*.h") for path in sorted(FACE.glob(pattern))}
+def c_sources() -> dict[str, bytes]:
+    """The C files by name."""
+    return {path.name: path.read_bytes() for pattern in ("*.c", "*.h") for path in sorted(C_SOURCES.glob(pattern))}
 
 
 def toolchain() -> str:
-    """What compiles here: zig and its version, or the system's own compiler."""
+    """The compiler: zig and its version, or the system's own."""
     if _zig():
-        return f"zig {metadata.version('ziglang')}, for {systems(TARGETS)}"
-    return f"{_system_compiler()}, for this system only; `pip install ziglang` brings a compiler for {systems(TARGETS)}"
+        return f"zig {metadata.version('ziglang')}, for {system_names(TARGETS)}"
+    return f"{_system_compiler()}, for this system only; `pip install ziglang` brings a compiler for {system_names(TARGETS)}"
 
 
-def linkable() -> list[str]:
-    """The targets that can be linked here, by their names in TARGETS: all with zig, the present one otherwise."""
-    return list(TARGETS) if _zig() else [here()]
+def linkable_targets() -> list[str]:
+    """The targets that can be linked for, by their names in TARGETS: all with zig, otherwise this system."""
+    return list(TARGETS) if _zig() else [host_target()]
 
 
-def systems(targets: Iterable[str]) -> str:
-    """The systems of some targets, as in `Linux and Windows`."""
+def system_names(targets: Iterable[str]) -> str:
+    """The names of the systems of some targets, as in `Linux and Windows`."""
     *most, last = dict.fromkeys(TARGETS[name].system for name in targets)
     return f"{', '.join(most)} and {last}" if most else last
 
 
-def binaries(name: str, kernels: Mapping[str, bytes], generated: Mapping[str, str]) -> dict[str, bytes]:
+def link_binaries(name: str, kernels: Mapping[str, bytes], generated: Mapping[str, str]) -> dict[str, bytes]:
     """Binaries of the FMU `name` by target, from the kernels' machine code by target and generated C files."""
-    return {place: _linked(name, code, generated, TARGETS[place]) for place, code in kernels.items()}
+    return {place: _link(name, code, generated, TARGETS[place]) for place, code in kernels.items()}
 
 
-def _linked(name: str, kernels: bytes, generated: Mapping[str, str], target: Target) -> bytes:
+def _link(name: str, kernels: bytes, generated: Mapping[str, str], target: Target) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         stage = Path(folder)
-        files: dict[str, bytes] = {path: text.encode() for path, text in generated.items()} | face_sources()
+        files: dict[str, bytes] = {path: text.encode() for path, text in generated.items()} | c_sources()
         for path, content in files.items():
             (stage / path).write_bytes(content)
         (stage / "kernels.o").write_bytes(kernels)
@@ -79,7 +79,7 @@ def _extras(target: Target, output: str) -> Iterator[str]:
     if target.extension == "dylib":
         yield f"-Wl,-install_name,@rpath/{output}"
     if target.extension == "so":
-        yield from (f"-Wl,-soname,{output}", "-Wl,-z,defs")  # the latter refuses what no library has, as other systems do
+        yield from (f"-Wl,-soname,{output}", "-Wl,-z,defs")  # the latter refuses undefined symbols, as other systems do
 
 
 def _compiler(target: Target) -> list[str]:
@@ -98,7 +98,7 @@ def _system_compiler() -> str:
     return found
 
 
-def here() -> str:
+def host_target() -> str:
     """The name in TARGETS of the system this runs on."""
     kind = "arm64" if platform.machine().lower() in ("arm64", "aarch64") else "x86_64"
     name = {"linux": "linux", "win32": "windows", "darwin": f"macos-{kind}"}.get(sys.platform, sys.platform)

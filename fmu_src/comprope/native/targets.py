@@ -1,4 +1,4 @@
-"""From the kernels' intermediate code to an object file for one processor and system."""
+"""Targets of the native FMUs, and object files of the kernels for each."""
 
 from dataclasses import dataclass
 
@@ -11,8 +11,8 @@ from .llvm_ir import PREFIX
 class Target:
     """A system that binaries are made for.
 
-    `system` is its name for people, `folder` (FMI 2.0), `platform` (FMI 3.0) and `extension` are what FMI has for it,
-    `triple` and `cpu` are LLVM's words, `zig` is the target that zig links for.
+    `system` is its display name; `folder` (FMI 2.0), `platform` (FMI 3.0) and `extension` are defined by FMI, `triple`
+    and `cpu` by LLVM; `zig` is the target that zig links for.
     """
 
     system: str
@@ -25,7 +25,7 @@ class Target:
 
 
 _MACOS = "macOS (Intel and Apple)"
-# The oldest processors of each kind: wider vector units gain little, and every one gives the same bits.
+# The oldest processor of each kind: wider vector units gain little, and all give the same bits.
 TARGETS = {
     "linux": Target("Linux", "linux64", "x86_64-linux", "so", "x86_64-unknown-linux-gnu", "x86-64", "x86_64-linux-gnu.2.17"),
     "windows": Target("Windows", "win64", "x86_64-windows", "dll", "x86_64-w64-windows-gnu", "x86-64", "x86_64-windows-gnu"),
@@ -39,7 +39,7 @@ TARGETS = {
 
 
 def machine_code(code: str, target: Target) -> bytes:
-    """An object file of the module `code`, optimised without reordering any sum."""
+    """The object file of the LLVM module `code`, optimised without reordering any sum."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     kind = llvm.Target.from_triple(target.triple)
