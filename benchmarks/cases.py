@@ -60,9 +60,9 @@ class Cost:
 def ride(model: RopeModel, trip: SCurve, until: float) -> tuple[CompensationRope, Cost]:
     """The rope at time `until` [s] of a trip, and what it cost from rest to there; settling is not in the cost."""
     rope = CompensationRope(model)
-    rope.settle(trip.origin, model.shaft.height - trip.origin)
+    rope.solve_equilibrium(trip.origin, model.shaft.height - trip.origin)
     rope.step(COMMUNICATION, path(model, trip, 0.0, 0.0))  # loads what is compiled
-    rope.settle(trip.origin, model.shaft.height - trip.origin)
+    rope.solve_equilibrium(trip.origin, model.shaft.height - trip.origin)
     count, begin = round(until / COMMUNICATION), time.process_time()
     for k in range(count):
         rope.step(COMMUNICATION, path(model, trip, k * COMMUNICATION, (k + 1) * COMMUNICATION))

@@ -65,7 +65,7 @@ def peer(interpreter: str, model: RopeModel, trip: SCurve, until: float) -> dict
 def ours(model: RopeModel, trip: SCurve, until: float) -> dict[str, float]:
     """Mean tensions and the sheave's final angle of our rope, read every communication step."""
     rope, rows = CompensationRope(model), []
-    rope.settle(trip.origin, model.shaft.height - trip.origin)
+    rope.solve_equilibrium(trip.origin, model.shaft.height - trip.origin)
     for k in range(round(until / COMMUNICATION)):
         rope.step(COMMUNICATION, path(model, trip, k * COMMUNICATION, (k + 1) * COMMUNICATION))
         rows.append(rope.outputs())

@@ -22,10 +22,10 @@ def seen(element: float, origin: float, changes: dict[str, float]) -> np.ndarray
     """What each sensor sees, then the sheave's height, in mm: (times, sensors + 1)."""
     chosen = model("tower50", rope__element_length=element, solver__step=STEP, **changes)
     rope, way = CompensationRope(chosen), trip("tower50", origin, origin + TRAVEL)
-    rope.settle(origin, chosen.shaft.height - origin)
+    rope.solve_equilibrium(origin, chosen.shaft.height - origin)
     rows = []
     for k in range(round(UNTIL / COMMUNICATION) + 1):
-        shown = rope.displayed()
+        shown = rope.all_outputs()
         rows.append([shown[f"lateral_displacement[{i}]"] for i in range(1, len(chosen.sensors) + 1)])
         rows[-1].append(shown["sheave_displacement"])
         rope.step(COMMUNICATION, path(chosen, way, k * COMMUNICATION, (k + 1) * COMMUNICATION))

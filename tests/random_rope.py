@@ -3,7 +3,7 @@
 import numpy as np
 
 from comprope.quantities import quantities
-from comprope.rope.compiler.workspace import Bound
+from comprope.rope.compiler.workspace import RopeWorkspace
 from comprope.rope.effects import REGISTRY
 
 from .rope_tower import STUB, rope
@@ -19,15 +19,15 @@ def nominal(effect: str) -> dict[str, float]:
     return own | COMPANIONS.get(effect, {})
 
 
-def random_state(changes: dict[str, float], seed: int = 0) -> Bound:
+def random_state(changes: dict[str, float], seed: int = 0) -> RopeWorkspace:
     """A rope in a short shaft, bent and moving at random, on a sheave that turns under it.
 
     Waves of 0.1 mm and a kink of a micrometre at each node keep part of the wrap in contact and part
     of it out; velocities of 0.2 m/s give every point of the wrap another slip.
     """
     hung = rope(changes, STUB)
-    hung.settle(0.0, 1.0)
-    do, n, m, random = Bound(hung.n, hung.p), hung.n, hung.n + 1, np.random.default_rng(seed)
+    hung.solve_equilibrium(0.0, 1.0)
+    do, n, m, random = RopeWorkspace(hung.n, hung.p), hung.n, hung.n + 1, np.random.default_rng(seed)
     do.state.from_bytes(hung.state.to_bytes())
     waves = np.sin(np.outer(np.arange(1, 6), np.linspace(0.0, np.pi, n)))
     for at in (0, m):
@@ -39,6 +39,6 @@ def random_state(changes: dict[str, float], seed: int = 0) -> Bound:
     return do
 
 
-def forces(do: Bound, ck: float = 0.0, cc: float = 0.0, tangent: bool = False) -> np.ndarray:
-    do.evaluate(t=TIME, ck=ck, cc=cc, tangent=tangent)
-    return do.f.copy()
+def forces(do: RopeWorkspace, ck: float = 0.0, cc: float = 0.0, tangent: bool = False) -> np.ndarray:
+    do.forces(t=TIME, ck=ck, cc=cc, tangent=tangent)
+    return do.work.f.copy()

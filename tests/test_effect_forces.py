@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
-from comprope.rope.compiler.workspace import Bound
+from comprope.rope.compiler.workspace import RopeWorkspace
 from comprope.rope.effects import REGISTRY
 from comprope.rope.runtime.parameter_vector import ELEMENT
 
@@ -20,15 +20,15 @@ EI, DIAMETER = STUB.rope.bending_stiffness, STUB.rope.diameter
 class Bent:
     """Geometry of a bent rope: unit tangents and lengths of its elements, velocities of its nodes."""
 
-    def __init__(self, do: Bound) -> None:
-        n = do.scalars["n"]
+    def __init__(self, do: RopeWorkspace) -> None:
+        n = do.rope.n
         q, v = (array.reshape(2, n + 1) for array in (do.state.q, do.state.v))
         self.v, self.spin, self.rise = v[:, :n], v[1, n], v[0, n]
         self.side = np.sign(q[1, :n])
         step = np.diff(q[:, :n], axis=1)
         self.length = np.hypot(*step)
         self.tangent = step / self.length
-        self.element = float(do.standing["p"][ELEMENT])
+        self.element = float(do.rope.p[ELEMENT])
 
     @property
     def curvature(self) -> np.ndarray:
@@ -60,9 +60,9 @@ class Bent:
         return found
 
 
-def slipped(bent: Bent, do: Bound) -> np.ndarray:
+def slipped(bent: Bent, do: RopeWorkspace) -> np.ndarray:
     """Dahl's variable after the curvature has changed from that in the history to the present one."""
-    first, m = REGISTRY["bending_hysteresis"].first_state, do.scalars["n"] + 1
+    first, m = REGISTRY["bending_hysteresis"].first_state, do.rope.n + 1
     before, z = (do.state.history[(first + k) * m + 1 : (first + k + 1) * m - 2] for k in (0, 1))
     sense = np.sign(bent.curvature - before)
     return sense + (z - sense) * np.exp(-np.abs(bent.curvature - before) / 0.1)
@@ -73,7 +73,7 @@ def coulomb(size: float, v: float, v0: float) -> float:
 
 
 # The force (2, n + 1) that an effect adds at its nominal values: 1.1 for the drag coefficient, 5 N.m, 0.1 N.m.s, 20 N ...
-FORMULAS: dict[str, Callable[[Bent, Bound], np.ndarray]] = {
+FORMULAS: dict[str, Callable[[Bent, RopeWorkspace], np.ndarray]] = {
     "air_drag": lambda bent, do: bent.drag(0.0),
     "shaft_airflow": lambda bent, do: bent.drag(0.3) - bent.drag(0.0),
     "intrinsic_curvature": lambda bent, do: bent.of_moments(np.full(bent.length.size - 1, -EI * 0.1)),
@@ -87,7 +87,7 @@ FORMULAS: dict[str, Callable[[Bent, Bound], np.ndarray]] = {
 @pytest.mark.parametrize("effect", FORMULAS)
 def test_effect_pushes_as_its_formula_says(effect: str) -> None:
     acting, absent = random_state(nominal(effect)), random_state(COMPANIONS.get(effect, {}))
-    acting.state.v *= 10.0  # velocities of 2 m/s, so that the drag is not lost in the rounding of the other forces
+    acting.state.v[:] *= 10.0  # velocities of 2 m/s, so that the drag is not lost in the rounding of the other forces
     absent.state.from_bytes(acting.state.to_bytes())
     found = (forces(acting) - forces(absent)).reshape(2, -1)
     expected = FORMULAS[effect](Bent(acting), acting)
@@ -103,11 +103,11 @@ SWAY, OFFSET = nominal("building_sway"), nominal("attachment_offset")
 def test_effect_moves_the_ends_as_its_formula_says(effect: str, changes: dict[str, float]) -> None:
     """Sway grows from nothing at the pit's bottom to its amplitude at the top landing; offsets are outward."""
     do = random_state(changes | ({"effects.attachment_offset.counterweight": 0.02} if effect == "attachment_offset" else {}))
-    heights, n, amplitude = (0.9, 0.2), do.scalars["n"], SWAY["effects.building_sway.amplitude"]
+    heights, n, amplitude = (0.9, 0.2), do.rope.n, SWAY["effects.building_sway.amplitude"]
     path = np.zeros((4, 6))
     path[[0, 2], 0], path[[0, 2], 3] = (-heights[0], -heights[1]), (-heights[0], -heights[1])
-    do.path[:] = path.ravel()
-    do.place(t=TIME, dt=1.0, s=0.0)
+    do.ends.path[:] = path.ravel()
+    do.place_ends(t=TIME, dt=1.0, s=0.0)
     swing = amplitude * np.sin(2.0 * np.pi * 0.2 * TIME + 1.0) / (STUB.shaft.height + STUB.shaft.pit)
     expected = {
         "building_sway": [swing * (height + STUB.shaft.pit) for height in heights],
@@ -126,7 +126,7 @@ SHAFT = {"shaft.height": 4.0, "rope.bending_stiffness": 2.0}
 def hung(changes: dict[str, float]) -> tuple[float, float, float]:
     """Height of the axle, and outward displacements of both sides beside it, of a rope at rest in a shaft of 4 m."""
     one = rope(SHAFT | changes)
-    one.settle(2.0, 2.0)
+    one.solve_equilibrium(2.0, 2.0)
     axle = one.sheave()["sheave_displacement"]
     return axle, *(one.lateral_displacement(side, axle - 1.1)[0] for side in ("car", "counterweight"))
 
@@ -153,7 +153,7 @@ STILL = [effect for effect in REGISTRY if effect not in ("building_sway", "sheav
 def test_a_rope_hung_with_an_effect_stays_at_rest(effect: str) -> None:
     """Coulomb forces vanish without velocity, slip of the wires begins at zero, and settling knows of every other force."""
     one = rope(nominal(effect), STUB)
-    one.settle(0.5, 0.5)
+    one.solve_equilibrium(0.5, 0.5)
     before, path = one.state.q.copy(), way(STUB.sheave.radius, STUB.shaft.height, *(2 * [HELD]))
     if effect == "attachment_offset":
         assert one.state.q[[one.n + 1, 2 * one.n]] == pytest.approx([-0.41, 0.41], abs=1e-12)

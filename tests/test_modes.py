@@ -7,6 +7,7 @@ import pytest
 
 from comprope.errors import InputError
 from comprope.rope.runtime import array_layout
+from comprope.rope.runtime.kernel_arguments import Motion, Weights, Workspace
 from comprope.rope.simulator.rope import CompensationRope
 from comprope_system.modal.hanging_string import HangingString, mass_for_period, side_string
 from comprope_system.modal.linearisation import STICK, _interpreted, linearise
@@ -81,7 +82,7 @@ def test_both_sides_alike_with_the_car_half_way() -> None:
 def test_the_stiffness_is_the_derivative_of_the_forces() -> None:
     """Along random directions, without friction, whose stand-in for sticking is no derivative by position."""
     rope = CompensationRope(building(TOWER, {"shaft.height": 2.0, "contact.friction_coefficient": 0.0}))
-    rope.settle(0.7, 1.3)
+    rope.solve_equilibrium(0.7, 1.3)
     small, random = linearise(rope), np.random.default_rng(1)
     assert abs(small.stiffness - small.stiffness.T).max() < 1e-9 * abs(small.stiffness).max()
     for _ in range(3):
@@ -95,9 +96,10 @@ def forces(rope: CompensationRope, moved: np.ndarray) -> np.ndarray:
     """Forces on all unknowns of a rope moved from where it is."""
     m, p = rope.n + 1, np.asarray(rope.p)
     f, zeros = np.zeros(2 * m), np.zeros(40 * m)
-    touch, w, blocks = np.zeros(array_layout.TOUCH), np.zeros(array_layout.SECTIONS * m), np.zeros(1)
-    q = np.asarray(rope.state.q) + moved.ravel()
-    _interpreted()["forces"](rope.n, 0.0, p, q, zeros, w, f, touch, zeros, zeros, zeros, blocks, 0.0, 0.0, False)
+    touch, w = np.zeros(array_layout.TOUCH), np.zeros(array_layout.SECTIONS * m)
+    work = Workspace(w, f, zeros, zeros, touch, *(7 * [zeros]))
+    motion = Motion(np.asarray(rope.state.q) + moved.ravel(), zeros, zeros)
+    _interpreted()["forces"](rope.n, 0.0, p, motion, zeros, work, Weights(0.0, 0.0), False)
     return f
 
 
@@ -106,7 +108,7 @@ def test_free_vibration_of_the_full_model_has_the_period() -> None:
     model = building(TOWER)
     period = modes(model, 10.0, 6).first().period
     rope = CompensationRope(model)
-    rope.settle(10.0, 40.0)
+    rope.solve_equilibrium(10.0, 40.0)
     radius, dt, seen = model.sheave.radius, 0.02, []
     for k in range(900):
         path = np.zeros((4, 6))

@@ -29,7 +29,7 @@ from comprope.native.c_source import quoted
 from comprope.native.fmi2_package import universal_binary
 from comprope.native.llvm_ir import require_no_python
 from comprope.native.targets import TARGETS
-from comprope.rope.runtime.status import WORDS, require_fine
+from comprope.rope.runtime.status import MESSAGES, require_success
 from comprope_system import presets
 
 from .fmi_pair import Pair
@@ -199,10 +199,10 @@ def test_a_failed_run_can_be_taken_back(pair: Pair) -> None:
 
 
 def test_words_take_as_many_numbers_as_they_are_given() -> None:
-    for status, (kind, text, count) in WORDS.items():
+    for status, (kind, text, count) in MESSAGES.items():
         assert len(re.findall(r"%[.\d]*[gef]", text)) == count
         with pytest.raises(kind):
-            require_fine(status, [1.0] * 6)
+            require_success(status, [1.0] * 6)
 
 
 def test_strings_of_c_hold_any_text() -> None:

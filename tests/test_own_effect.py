@@ -20,7 +20,7 @@ from comprope.drive.parameters import Profile
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError, SimulationError
 from comprope.rope.effects import REGISTRY, names_of, user_effects
-from comprope.rope.effects.kernel_checks import require_sound
+from comprope.rope.effects.kernel_checks import require_consistent
 from comprope.rope.model_file import dump, load, with_changes
 from comprope.rope.runtime.parameter_vector import DECLARED
 from comprope.rope.simulator.cosimulation import interface
@@ -130,7 +130,7 @@ def test_the_rope_moves_otherwise_and_its_energy_balances(examples):
     ropes = [CompensationRope(one) for one in (examples, with_changes(examples, still))]
     trip, apart = plan_s_curve(Profile(), 20.0, 26.0, 0.0), 0.0
     for rope in ropes:
-        rope.settle(20.0, 30.0)
+        rope.solve_equilibrium(20.0, 30.0)
     for _ in range(100):
         for rope in ropes:
             ride(rope, trip, 0.02)
@@ -147,7 +147,7 @@ def test_tangents_are_right_given_or_found_by_differences(examples):
     """The brush gives its own; the spring, stiff beside bending but not beside contact, gives none."""
     undamped = {"rope.axial_damping": 0.0, "rope.bending_damping": 0.0}
     do = random_state(FILES | JOINTS | BRUSH | {"effects.pit_spring.stiffness": 1e6} | undamped)
-    inner = np.ix_(free(do.scalars["n"]), free(do.scalars["n"]))
+    inner = np.ix_(free(do.rope.n), free(do.rope.n))
     # As for comprope's effects; the spring adds 5e4 N/m to a node.
     assert agrees(tangent(do, 1.0, 0.0)[inner], differences(do, do.state.q, 1e-8)[inner], 2.0)
     assert agrees(tangent(do, 0.0, 1.0)[inner], differences(do, do.state.v, 1e-5)[inner], 1e-5)
@@ -156,7 +156,7 @@ def test_tangents_are_right_given_or_found_by_differences(examples):
 def test_a_stiff_force_without_tangents_costs_no_more_iterations(examples):
     rope = CompensationRope(with_changes(examples, {"effects.pit_spring.stiffness": 1e5}))
     trip = plan_s_curve(Profile(), 20.0, 26.0, 0.0)
-    rope.settle(20.0, 30.0)
+    rope.solve_equilibrium(20.0, 30.0)
     for _ in range(50):
         ride(rope, trip, 0.02)
     assert rope.count["halved"] == 0 and rope.count["newton"] < 3.0 * rope.count["steps"]
@@ -165,7 +165,7 @@ def test_a_stiff_force_without_tangents_costs_no_more_iterations(examples):
 def test_an_effect_whose_force_is_lost_on_the_way_is_named(examples):
     rope = CompensationRope(with_changes(examples, {"effects.root.size": 1.0}))
     trip = plan_s_curve(Profile(), 20.0, 26.0, 0.0)
-    rope.settle(20.0, 30.0)
+    rope.solve_equilibrium(20.0, 30.0)
     with pytest.raises(SimulationError) as caught:
         for _ in range(200):
             ride(rope, trip, 0.02)
@@ -280,7 +280,7 @@ def refusal(file: Path, source: str) -> str:
     file.write_text(source)
     with pytest.raises(InputError) as caught:
         for name in own_names(file):
-            require_sound(REGISTRY[name])
+            require_consistent(REGISTRY[name])
     assert len(str(caught.value).splitlines()) == 1
     return str(caught.value).removeprefix(str(file))
 
@@ -299,8 +299,13 @@ WRONG = {
     "unit": ('"N.s/m2"', '"lbs"', ", line 6: PitBrush.damping: unit lbs: 'lbs' is not known; known are 1, kg, m"),
     "default": ("default=0.5", "default=500.0", ", line 6: PitBrush.top: its neutral value 500 is outside of -20 to 100"),
     "quantity": ("brush.top", "brush.tp", ', line 16: effects.pit_brush.tp: no such quantity; did you mean "effects.pit_'),
-    "hook": ("forces=brush", "force=brush", ", line 39: pit_brush: no such hook: force; there are moments, forces, tangents"),
+    "hook": ("forces=brush", "force=brush", ", line 40: pit_brush: no such hook: force; there are moments, forces, tangents"),
     "arguments": ("p, q, v, w, f):", "p, q, v, f):", ", line 21: brush(n, t, p, q, v, f): for forces the arguments (n, t, p,"),
+    "ck and cc apart": (
+        "w, A, weights):", "w, A, ck, cc):",
+        ", line 32: brush_tangent(n, t, p, q, v, w, A, ck, cc): for tangents the arguments (n, t, p, q, v, w, A, weights) are "
+        "accepted, where ck, cc = weights",
+    ),
     "no kernel": ("@kernel\ndef brush(", "def brush(", ", line 20: brush: not a kernel; write @kernel above it"),
     "elsewhere": ("forces=brush", "forces=abs", ": forces=abs: a function of this file is accepted"),
 }  # fmt: skip
@@ -338,7 +343,7 @@ def test_ends_that_move_otherwise_than_they_say_are_refused(tmp_path):
 
 @pytest.mark.parametrize("effect", BUILT_IN)
 def test_what_is_asked_of_own_effects_holds_for_those_of_comprope(effect):
-    require_sound(REGISTRY[effect])
+    require_consistent(REGISTRY[effect])
 
 
 def test_a_copy_is_the_same_effect_and_a_changed_file_is_another(tmp_path):

@@ -29,7 +29,7 @@ def ridden(
 ) -> tuple[CompensationRope, np.ndarray]:
     """The rope after a trip from rest, and its coordinates every 16 ms."""
     moving, trip = rope(dict(changes)), plan_s_curve(Profile(), origin, destination, 0.5)
-    moving.settle(origin, moving.model.shaft.height - origin)
+    moving.solve_equilibrium(origin, moving.model.shaft.height - origin)
     rows = []
     for _ in range(round(until / 0.016)):
         ride(moving, trip, 0.016)
@@ -64,7 +64,7 @@ def string_frequencies(tension: float, length: float, count: int) -> list[float]
 def plucked(changes: dict[str, float], until: float, height: float) -> np.ndarray:
     """Displacement at a height every 20 ms after the counterweight's end has moved aside by 10 mm in half a second."""
     moving = rope({"rope.bending_damping": 0.0, "solver.numerical_damping": 0.0} | changes)
-    moving.settle(0.0, 50.0)
+    moving.solve_equilibrium(0.0, 50.0)
     path, rows = way(TOWER.sheave.radius, 50.0, TrajectoryPoint(0.0), TrajectoryPoint(0.0)).reshape(4, 6), []
     path[3, 3] += 0.01
     moving.step(0.5, path.ravel())
@@ -92,7 +92,7 @@ def fitted_frequencies(seen: np.ndarray, guess: list[float]) -> np.ndarray:
 def test_a_plucked_side_rings_as_a_hanging_string(changes: dict[str, float]) -> None:
     """The counterweight's side, 51.5 m between its end and the axle's height, plucked at its end."""
     hung = rope(changes)
-    hung.settle(0.0, 50.0)
+    hung.solve_equilibrium(0.0, 50.0)
     tension = 0.5 * G * (hung.model.sheave.mass + RHO * pi * TOWER.sheave.radius)
     expected = string_frequencies(tension, 50.0 - float(hung.outputs()["sheave_displacement"]) + 1.5, 6)
     found = fitted_frequencies(plucked(changes, 30.0, 12.0), expected)
@@ -109,7 +109,7 @@ def test_tension_jumps_across_the_accelerating_sheave(inertia: float) -> None:
     """By J w' / r, and by what accelerates the rope that lies on the sheave: rho pi r a."""
     moving = rope({"sheave.inertia": inertia, "rope.bending_damping": 0.0})
     trip, radius, jumps = plan_s_curve(Profile(speed=6.0), 5.0, 45.0, 0.0), TOWER.sheave.radius, []
-    moving.settle(5.0, 45.0)
+    moving.solve_equilibrium(5.0, 45.0)
     while (time := float(moving.state.time[0])) < 5.0:
         ride(moving, trip, 0.02)
         car, out = trip.at(time + 0.02), moving.outputs()
@@ -220,21 +220,21 @@ def test_restart_from_bytes_is_bit_for_bit() -> None:
 
     hysteresis = {"effects.bending_hysteresis.friction_moment": 1.0, "effects.bending_hysteresis.yield_curvature": 0.1}
     moving, other = rope(hysteresis), rope(hysteresis)
-    moving.settle(20.0, 30.0)
+    moving.solve_equilibrium(20.0, 30.0)
     saved = go(moving, 100)
     expected = go(moving, 100)
-    other.settle(3.0, 47.0)
+    other.solve_equilibrium(3.0, 47.0)
     other.state.from_bytes(saved)
     assert go(other, 100) == expected
 
 
 def test_settling_again_forgets_the_past() -> None:
     moving, fresh = rope(), rope()
-    moving.settle(20.0, 30.0)
+    moving.solve_equilibrium(20.0, 30.0)
     for _ in range(50):
         ride(moving, SHORT, 0.02)
     for one in (moving, fresh):
-        one.settle(20.0, 30.0)
+        one.solve_equilibrium(20.0, 30.0)
     assert moving.state.to_bytes() == fresh.state.to_bytes()
 
 
@@ -294,7 +294,7 @@ def test_a_fast_trip_never_halves_a_step() -> None:
     """At 9 m/s a step winds a good part of an element on, which the start of the iteration must foresee."""
     moving, fast = rope({"shaft.height": 80.0}), Profile(speed=9.0, acceleration=3.0, jerk=3.0)
     trip = plan_s_curve(fast, 0.0, 80.0, 0.1)
-    moving.settle(0.0, 80.0)
+    moving.solve_equilibrium(0.0, 80.0)
     for _ in range(round(trip.end_time / 0.02)):
         ride(moving, trip, 0.02)
     assert moving.count["halved"] == 0
@@ -313,7 +313,7 @@ def test_a_light_sheave_survives_the_trip(weight: float) -> None:
 def test_a_violent_input_is_survived_or_refused_never_nan(jump: float, damping: float) -> None:
     """The car jumps within a millisecond; the rope then hangs still, or says what went wrong and where."""
     moving = rope({"solver.numerical_damping": damping})
-    moving.settle(5.0, 45.0)
+    moving.solve_equilibrium(5.0, 45.0)
     path = way(TOWER.sheave.radius, 50.0, TrajectoryPoint(5.0), TrajectoryPoint(5.0)).reshape(4, 6)
     path[0, 3] -= jump
     try:

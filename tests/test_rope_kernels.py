@@ -13,15 +13,16 @@ from comprope.drive.parameters import Profile
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.quantities import quantities
 from comprope.rope.compiler.entry_points import compiled
-from comprope.rope.compiler.workspace import Bound
+from comprope.rope.compiler.workspace import RopeWorkspace
 from comprope.rope.effects import REGISTRY
 from comprope.rope.effects.trial_state import Trial
 from comprope.rope.linalg import block_band, bordered_band
 from comprope.rope.mechanics import end_conditions, equations_of_motion, sensors
+from comprope.rope.mechanics.contact_law import contact_radius, friction_law, normal_law
 from comprope.rope.mechanics.energy import LOSSES, SPENT
 from comprope.rope.mechanics.internal_forces import angle
-from comprope.rope.mechanics.sheave_contact import contact_radius, friction_law, normal_law
 from comprope.rope.runtime.array_layout import BAND, COLUMNS, CONTACT, FIRST, FRICTION_LOSS, LAST, ROWS, TENSION
+from comprope.rope.runtime.kernel_arguments import Motion, Weights, Workspace
 from comprope.rope.runtime.parameter_vector import DECLARED, slot
 from comprope.rope.simulator.end_motion import EndMotion, parabola
 
@@ -33,7 +34,7 @@ DISSIPATIVE = ("air_drag", "bearing_friction", "guide_friction", "sheave_damper"
 UNDAMPED = {"rope.axial_damping": 0.0, "rope.bending_damping": 0.0}
 
 
-def differences(do: Bound, variable: np.ndarray, h: float) -> np.ndarray:
+def differences(do: RopeWorkspace, variable: np.ndarray, h: float) -> np.ndarray:
     """Central differences of all forces by all entries of q or v."""
     columns = []
     for k, value in enumerate(variable.tolist()):
@@ -46,11 +47,11 @@ def differences(do: Bound, variable: np.ndarray, h: float) -> np.ndarray:
     return np.array(columns).T
 
 
-def band_of(do: Bound, ck: float, cc: float, mass: float = 0.0) -> np.ndarray:
+def band_of(do: RopeWorkspace, ck: float, cc: float, mass: float = 0.0) -> np.ndarray:
     """The band A at the state of the last call of `forces`, effects included."""
-    a, s, joined = np.zeros(BAND * (do.scalars["n"] + 1)), do.state, compiled()["evaluate"].function.__globals__
-    joined["tangent_band"](do.scalars["n"], TIME, do.standing["p"], s.q, s.v, do.w, a, mass, ck, cc)
-    return a
+    work, s, joined = do.work._replace(A=np.zeros_like(do.work.A)), do.state, compiled()["forces"].function.__globals__
+    joined["tangent_band"](do.rope.n, TIME, do.rope.p, Motion(s.q, s.v, s.a), work, mass, Weights(ck, cc))
+    return work.A
 
 
 def dense(n: int, a: np.ndarray, z: np.ndarray) -> np.ndarray:
@@ -75,11 +76,11 @@ def dense(n: int, a: np.ndarray, z: np.ndarray) -> np.ndarray:
     return full
 
 
-def tangent(do: Bound, ck: float, cc: float) -> np.ndarray:
+def tangent(do: RopeWorkspace, ck: float, cc: float) -> np.ndarray:
     """ck df/dq + cc df/dv as the kernels give it."""
-    do.standing["Z"][:] = 0.0
+    do.work.Z[:] = 0.0
     forces(do, ck, cc, True)
-    return -dense(do.scalars["n"], band_of(do, ck, cc), do.standing["Z"])
+    return -dense(do.rope.n, band_of(do, ck, cc), do.work.Z)
 
 
 def free(n: int) -> np.ndarray:
@@ -98,7 +99,7 @@ def agrees(found: np.ndarray, expected: np.ndarray, floor: float) -> bool:
 @pytest.mark.parametrize("seed", range(3))
 def test_tangent_by_position(seed: int) -> None:
     do = random_state(UNDAMPED, seed)
-    inner = np.ix_(free(do.scalars["n"]), free(do.scalars["n"]))
+    inner = np.ix_(free(do.rope.n), free(do.rope.n))
     # Differences over 10 nm: forces of 1e5 N carry 1e-11 N of rounding, 2e-3 N/m of the difference; the law of
     # contact damping, whose third derivative is 1e14 N/m3, leaves 1e-2. Entries reach 3e8.
     assert agrees(tangent(do, 1.0, 0.0)[inner], differences(do, do.state.q, 1e-8)[inner], 0.1)
@@ -107,7 +108,7 @@ def test_tangent_by_position(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_tangent_by_velocity(seed: int) -> None:
     do = random_state({}, seed)
-    inner = np.ix_(free(do.scalars["n"]), free(do.scalars["n"]))
+    inner = np.ix_(free(do.rope.n), free(do.rope.n))
     # Rounding of 1e-11 N over 20 um/s. Entries reach 8e4.
     assert agrees(tangent(do, 0.0, 1.0)[inner], differences(do, do.state.v, 1e-5)[inner], 1e-5)
 
@@ -116,18 +117,18 @@ def test_random_states_touch_slip_and_lift_off() -> None:
     """Else the tangents above would be those of a rope that sticks, or hangs free."""
     do = random_state({})
     forces(do)
-    m, q, p = do.scalars["n"] + 1, do.state.q, do.standing["p"]
-    wrap = np.arange(int(do.touch[FIRST]), int(do.touch[LAST]) + 1)
+    m, q, p = do.rope.n + 1, do.state.q, do.rope.p
+    wrap = np.arange(int(do.work.touch[FIRST]), int(do.work.touch[LAST]) + 1)
     middle = lambda at: q[at + wrap] + (q[at + wrap - 1] - 2.0 * q[at + wrap] + q[at + wrap + 1]) / 8.0  # noqa: E731
     depth = contact_radius(p) - np.hypot(middle(0) - q[m - 1], middle(m))
     assert 5 < np.count_nonzero(depth > 0.0) < wrap.size - 5
-    assert do.touch[FRICTION_LOSS] > 1.0
+    assert do.work.touch[FRICTION_LOSS] > 1.0
 
 
 def test_tangent_leaves_out_how_damping_turns_with_the_rope() -> None:
     """The damping forces' derivative by position is left out; it is small beside the stiffness, so Newton hardly slows."""
     do = random_state({})
-    inner = np.ix_(free(do.scalars["n"]), free(do.scalars["n"]))
+    inner = np.ix_(free(do.rope.n), free(do.rope.n))
     missing = tangent(do, 1.0, 0.0)[inner] - differences(do, do.state.q, 1e-8)[inner]
     # c_A times the spin of 0.2 m/s over an element, 4 rad/s, against EA: 2e3 * 4 / 8e6.
     assert 1e-4 < abs(missing).max() / 3.2e8 < 3e-3
@@ -238,7 +239,7 @@ def test_paths_join_smoothly_and_reach_a_steady_motion(derivatives: bool, at_end
 
 def seen(q: np.ndarray, n: int, side: int, x: float) -> tuple[float, bool]:
     answer = np.zeros(2)
-    sensors.sight(n, q, side, x, answer)
+    sensors.read_sensor(n, q, side, x, answer)
     return float(answer[0]), bool(answer[1])
 
 
@@ -268,7 +269,7 @@ def test_sensor_finds_a_node_where_it_is() -> None:
 
 def test_sensor_whose_rope_is_gone_says_so() -> None:
     hung = rope()
-    hung.settle(10.0, 40.0)
+    hung.solve_equilibrium(10.0, 40.0)
     assert hung.lateral_displacement("car", 10.5) == (pytest.approx(0.0, abs=1e-12), False)  # above the car's end
     assert not hung.lateral_displacement("counterweight", -2.5)[1]  # below the sheave
     assert hung.lateral_displacement("car", 9.5)[1]
@@ -277,7 +278,7 @@ def test_sensor_whose_rope_is_gone_says_so() -> None:
 
 def test_maximum_is_the_largest_of_all_readings() -> None:
     hung = rope({"sheave.mass": 12.0})
-    hung.settle(0.0, 50.0)
+    hung.solve_equilibrium(0.0, 50.0)
     most, height = hung.maximum("counterweight")
     readings = [hung.lateral_displacement("counterweight", h)[0] for h in np.linspace(-1.0, 20.0, 421).tolist()]
     assert most == pytest.approx(max(readings), abs=2e-5)  # between nodes the rope bulges by l^2 kappa / 8: 20 um
@@ -295,27 +296,25 @@ def test_effect_at_its_neutral_value_changes_nothing(effect: str) -> None:
     """Bit for bit what the kernels give that have no effects joined to them."""
     names = [f"effects.{effect}.{one.name}" for one in quantities(REGISTRY[effect])]
     do = random_state({name: DECLARED[name].neutral for name in names})
-    plain, n = {name: array.copy() for name, array in do.standing.items()}, do.scalars["n"]
-    a = np.zeros_like(plain["A"])
+    state, work, n, p = do.state.copy(), Workspace(*(array.copy() for array in do.work)), do.rope.n, do.rope.p
+    motion, weights = Motion(state.q, state.v, state.a), Weights(0.9, 0.1)
     with_effect = forces(do, 0.9, 0.1, True)
-    equations_of_motion.forces(
-        n, TIME, plain["p"], plain["q"], plain["v"], plain["w"], plain["f"], plain["touch"],
-        plain["h0"], plain["h1"], plain["power"], plain["Z"], 0.9, 0.1, True,
-    )  # fmt: skip
-    assert np.array_equal(with_effect, plain["f"])
-    assert np.array_equal(do.standing["Z"], plain["Z"])
-    equations_of_motion.tangent_band(n, TIME, plain["p"], plain["q"], plain["v"], plain["w"], a, 1.0, 0.9, 0.1)
-    assert np.array_equal(band_of(do, 0.9, 0.1, mass=1.0), a)
-    do.path[:] = np.random.default_rng(1).normal(size=do.path.size)
-    do.place(t=TIME, dt=0.1, s=0.4)
-    end_conditions.place_ends(n, TIME, plain["p"], do.path, 0.1, 0.4, plain["q"], plain["v"], plain["a"])
-    assert all(np.array_equal(getattr(do.state, name), plain[name]) for name in "qva")
+    equations_of_motion.forces(n, TIME, p, motion, state.history, work, weights, True)
+    assert np.array_equal(with_effect, work.f)
+    assert np.array_equal(do.work.Z, work.Z)
+    work.A[:] = 0.0
+    equations_of_motion.tangent_band(n, TIME, p, motion, work, 1.0, weights)
+    assert np.array_equal(band_of(do, 0.9, 0.1, mass=1.0), work.A)
+    do.ends.path[:] = np.random.default_rng(1).normal(size=do.ends.path.size)
+    do.place_ends(t=TIME, dt=0.1, s=0.4)
+    end_conditions.place_ends(n, TIME, p, do.ends.path, 0.1, 0.4, motion)
+    assert all(np.array_equal(getattr(do.state, name), getattr(motion, name)) for name in "qva")
 
 
 @pytest.mark.parametrize("effect", EVERY_EFFECT)
 def test_effect_keeps_the_tangent_right(effect: str) -> None:
     do = random_state(nominal(effect) | UNDAMPED)
-    inner = np.ix_(free(do.scalars["n"]), free(do.scalars["n"]))
+    inner = np.ix_(free(do.rope.n), free(do.rope.n))
     # Left out on purpose: how air drag turns with the rope (1e-3 N/m) and how the arm of the contact force of an
     # eccentric groove turns with it (e P = 1 N m on the sheave's angle). Stiffnesses reach 3e8.
     assert agrees(tangent(do, 1.0, 0.0)[inner], differences(do, do.state.q, 1e-8)[inner], 2.0)
@@ -330,18 +329,18 @@ def test_effect_states_the_power_of_its_own_forces(effect: str) -> None:
         absent.state.from_bytes(acting.state.to_bytes())
         work = (forces(acting) - forces(absent)) @ acting.state.v
         # Forces of 1e5 N at 0.2 m/s, over 140 coordinates, leave 1e-9 W of rounding.
-        assert acting.standing["power"][k] == pytest.approx(work, rel=1e-9, abs=1e-7)
+        assert acting.work.power[k] == pytest.approx(work, rel=1e-9, abs=1e-7)
 
 
 @pytest.mark.parametrize("effect", [name for name in EVERY_EFFECT if "ends" in REGISTRY[name].hooks])
 def test_effect_moves_the_ends_with_consistent_velocity_and_acceleration(effect: str) -> None:
     """Central differences along a path on which the ends rise and move aside."""
     do, dt, h = random_state(nominal(effect)), 0.1, 1e-4
-    do.path[:] = np.random.default_rng(2).normal(size=do.path.size)
-    n = do.scalars["n"]
+    do.ends.path[:] = np.random.default_rng(2).normal(size=do.ends.path.size)
+    n = do.rope.n
 
     def placed(s: float) -> np.ndarray:
-        do.place(t=TIME + s * dt, dt=dt, s=s)
+        do.place_ends(t=TIME + s * dt, dt=dt, s=s)
         return np.array([array[[0, n - 1, n + 1, 2 * n]] for array in (do.state.q, do.state.v, do.state.a)])
 
     slope = (placed(0.4 + h) - placed(0.4 - h)) / (2.0 * h * dt)
@@ -355,14 +354,14 @@ def test_dissipative_effect_never_puts_energy_in(effect: str) -> None:
     for seed in range(10):
         do = random_state(nominal(effect), seed)
         forces(do)
-        assert do.standing["power"][k] < 0.0
+        assert do.work.power[k] < 0.0
 
 
 @cache
 def short_run(effect: str) -> tuple[dict[str, float], float, np.ndarray, dict[str, float]]:
     """Energies, residual, state and outputs after two seconds of acceleration with an effect, 20 m up the tower."""
     moving = rope(nominal(effect))
-    moving.settle(20.0, 30.0)
+    moving.solve_equilibrium(20.0, 30.0)
     trip = plan_s_curve(Profile(), 20.0, 26.0, 0.0)
     for _ in range(100):
         ride(moving, trip, 0.02)
@@ -394,7 +393,7 @@ def test_wire_friction_remembers_where_it_has_slipped() -> None:
     """The slip of every node after a trip, against Dahl's equation integrated apart along the same curvatures."""
     moving, effect = rope(nominal("bending_hysteresis")), REGISTRY["bending_hysteresis"]
     trip, n = plan_s_curve(Profile(), 20.0, 26.0, 0.0), moving.n
-    moving.settle(20.0, 30.0)
+    moving.solve_equilibrium(20.0, 30.0)
     before, slip = curvature(moving.state.q, n, moving.element), np.zeros(n - 2)
     for _ in range(500):
         ride(moving, trip, 0.004)  # one time step
@@ -412,13 +411,13 @@ def test_tension_is_elastic_and_damped() -> None:
     """T = EA (L / l - 1) + c_A dL/dt / l of a segment, from its definition."""
     do = random_state({})
     forces(do)
-    s, m, l = do.state, do.scalars["n"] + 1, rope({}, STUB).element
+    s, m, l = do.state, do.rope.n + 1, rope({}, STUB).element
     delta = np.array([np.diff(s.q[:m][: m - 1]), np.diff(s.q[m : 2 * m - 1])])
     rate = (delta * np.array([np.diff(s.v[: m - 1]), np.diff(s.v[m : 2 * m - 1])])).sum(0)
     length = np.hypot(*delta)
     expected = STUB.rope.axial_stiffness * (length / l - 1.0) + STUB.rope.axial_damping * rate / length / l
     # A strain of 1e-4 is known to 1e-12 of itself.
-    assert do.w[TENSION * m : TENSION * m + m - 2] == pytest.approx(expected, rel=1e-9, abs=1e-6)
+    assert do.work.w[TENSION * m : TENSION * m + m - 2] == pytest.approx(expected, rel=1e-9, abs=1e-6)
 
 
 def test_airflow_inward_mirrors_airflow_outward():

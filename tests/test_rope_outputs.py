@@ -126,7 +126,7 @@ def test_the_energy_residual_is_the_balance_of_all_energies() -> None:
 
 def test_the_counts_are_those_of_the_solver() -> None:
     engine, _, now = engines()
-    count = engine.rope.state.count
+    count = engine.rope.state.counters
     assert now["newton_iterations"] == engine.rope.count["newton"] >= engine.rope.count["steps"] > 0
     assert now["halvings"] == engine.rope.count["halved"]
     count[3], kept = 7.0, count[3]

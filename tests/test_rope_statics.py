@@ -32,7 +32,7 @@ def offset_ratio(changes: dict[str, float]) -> tuple[float, float]:
     """Offset at the sheave over EI / (2 r T), from a reading 3 m above the axle, and gamma lambda."""
     hung = rope(DEEP | changes)
     model = hung.model
-    hung.settle(0.0, model.shaft.height)
+    hung.solve_equilibrium(0.0, model.shaft.height)
     rho, radius, stiffness = model.rope.mass_per_length, model.sheave.radius, model.rope.bending_stiffness
     tension = axle_tension(model.sheave.mass, rho, radius)
     axle = hung.outputs()["sheave_displacement"] - model.shaft.pit
@@ -86,7 +86,7 @@ def test_offset_at_the_tower_mesh() -> None:
 def test_ends_carry_half_the_sheave_and_their_own_rope(mass: float, car: float) -> None:
     """Without stiffness in bending the sides hang straight, so the tension grows by rho g per natural length."""
     hung = rope({"sheave.mass": mass, "rope.bending_stiffness": 0.0})
-    hung.settle(car, 50.0 - car)
+    hung.solve_equilibrium(car, 50.0 - car)
     out, model = hung.outputs(), hung.model
     rho, ends = model.rope.mass_per_length, (out["car_end_tension"], out["counterweight_end_tension"])
     # The last correction, 1e-11 m, times EA / l leaves a millinewton.
@@ -101,7 +101,7 @@ def test_ends_carry_half_the_sheave_and_their_own_rope(mass: float, car: float) 
 def test_stretch_follows_the_tension_of_each_element() -> None:
     """The height that a straight side spans is the sum of l (1 + T / EA), T from the end downwards."""
     hung = rope({"rope.bending_stiffness": 0.0})
-    hung.settle(0.0, 50.0)
+    hung.solve_equilibrium(0.0, 50.0)
     n, l, model = hung.n, hung.element, hung.model
     k = np.arange(round(40.0 / l))
     tension = hung.outputs()["counterweight_end_tension"] - model.rope.mass_per_length * G * l * (k + 0.5)
@@ -142,7 +142,7 @@ def free_loop(mass: float, stiffness: float, height: float, length: float) -> Cu
 def test_free_loop_of_a_light_sheave(mass: float) -> None:
     """Below T = EI / (2 r^2), 12.7 kg here, the rope hangs wider than the sheave."""
     hung = rope({"sheave.mass": mass, "shaft.height": 10.0, "contact.stiffness": 1e8, "rope.element_length": 0.02})
-    hung.settle(5.0, 5.0)
+    hung.solve_equilibrium(5.0, 5.0)
     n, l, length = hung.n, hung.element, hung.model.rope_length
     loop = free_loop(mass, TOWER.rope.bending_stiffness, 5.0, length)
     s = np.arange(n) * l - 0.5 * length
@@ -165,7 +165,7 @@ def test_static_displacement_grows_as_the_sheave_gets_lighter(sensor: float) -> 
     seen = []
     for weight in WEIGHTS:
         hung = rope({"sheave.mass": weight * TOWER.sheave.mass})
-        hung.settle(0.0, 50.0)
+        hung.solve_equilibrium(0.0, 50.0)
         seen.append(hung.lateral_displacement("counterweight", sensor)[0])
     relative = (np.array(seen) - seen[-1]) / (seen[0] - seen[-1])
     assert np.all(np.diff(relative) < 0.0)
@@ -179,7 +179,7 @@ def test_sheave_carries_its_weight_wherever_the_car_is(weight: float) -> None:
     mass = weight * TOWER.sheave.mass
     hung = rope({"sheave.mass": mass})
     for car in np.linspace(-1.0, 51.0, 14).tolist():
-        hung.settle(car, 50.0 - car)
+        hung.solve_equilibrium(car, 50.0 - car)
         out = hung.outputs()
         # A correction of 1e-11 m on a contact of some 1e7 N/m.
         assert out["sheave_force"] == pytest.approx(mass * G, abs=1e-3)
@@ -189,9 +189,9 @@ def test_sheave_carries_its_weight_wherever_the_car_is(weight: float) -> None:
 @pytest.mark.parametrize("weight", [0.1, 0.5, 1.0])
 def test_mirrored_ends_give_the_mirrored_shape(weight: float) -> None:
     hung = rope({"sheave.mass": weight * TOWER.sheave.mass})
-    hung.settle(7.0, 43.0, (0.02, -0.01))
+    hung.solve_equilibrium(7.0, 43.0, (0.02, -0.01))
     n, one = hung.n, hung.state.q.copy()
-    hung.settle(43.0, 7.0, (-0.01, 0.02))
+    hung.solve_equilibrium(43.0, 7.0, (-0.01, 0.02))
     other = hung.state.q
     # Sums run in another order round the sheave; the last correction is below 1e-11 m.
     assert other[:n][::-1] == pytest.approx(one[:n], abs=1e-11)
@@ -203,7 +203,7 @@ def test_result_does_not_depend_on_where_the_nodes_sit() -> None:
     hung = rope()
     lateral, sheave = [], []
     for shift in np.linspace(0.0, hung.element, 21).tolist():
-        hung.settle(10.0 + shift, 40.0 - shift)
+        hung.solve_equilibrium(10.0 + shift, 40.0 - shift)
         lateral.append(hung.lateral_displacement("counterweight", 0.5)[0])
         sheave.append(hung.outputs()["sheave_displacement"])
     assert np.std(lateral) < 2e-5
@@ -222,7 +222,7 @@ def test_the_sheave_rests_where_a_fine_mesh_has_it(changes: dict[str, float]) ->
         hung = rope(changes | {"rope.element_length": element})
         found = []
         for shift in np.linspace(0.0, element, 9).tolist()[:-1]:
-            hung.settle(10.0 + shift, 40.0 - shift)
+            hung.solve_equilibrium(10.0 + shift, 40.0 - shift)
             found.append(hung.outputs()["sheave_displacement"])
         heights[element] = float(np.mean(found))
     assert heights[0.05] == pytest.approx(heights[0.01], abs=5e-6)
@@ -230,7 +230,7 @@ def test_the_sheave_rests_where_a_fine_mesh_has_it(changes: dict[str, float]) ->
 
 def test_end_displacements_belong_to_the_shape_at_rest() -> None:
     hung = rope({"effects.attachment_offset.car": 0.01})
-    hung.settle(0.0, 50.0, (0.02, 0.03))
+    hung.solve_equilibrium(0.0, 50.0, (0.02, 0.03))
     assert hung.lateral_displacement("car", 0.0)[0] == pytest.approx(0.03, abs=1e-9)
     assert hung.lateral_displacement("counterweight", 50.0)[0] == pytest.approx(0.03, abs=1e-9)
 
@@ -240,6 +240,6 @@ def test_axle_rests_in_the_pit_as_built() -> None:
     stiff = {"rope.axial_stiffness": 1e9, "rope.bending_stiffness": 0.0, "contact.stiffness": 1e10, "rope.mass_per_length": 0.05}
     for element in (0.05, 0.043, 0.031):
         hung = rope(stiff | {"rope.element_length": element})
-        hung.settle(20.0, 30.0)
+        hung.solve_equilibrium(20.0, 30.0)
         # Stretch of 600 N / 1e9 N over 26 m: 16 um.
         assert hung.outputs()["sheave_displacement"] == pytest.approx(-1.6e-5, abs=1e-5)

@@ -183,7 +183,7 @@ def ridden(rope: SensitiveRope | CompensationRope, steps: range) -> None:
 def test_the_rope_itself_moves_to_the_same_bits_and_a_saved_state_goes_on() -> None:
     plain, beside = CompensationRope(MODEL), SensitiveRope(MODEL, {"mass": {"sheave.mass": 1.0}}, exact=True)
     for rope in (plain, beside):
-        rope.settle(5.0, MODEL.shaft.height - 5.0)
+        rope.solve_equilibrium(5.0, MODEL.shaft.height - 5.0)
         ridden(rope, range(20))
     assert plain.state.to_bytes() == beside.rope.state.to_bytes()
     saved = beside.to_bytes()
@@ -202,7 +202,7 @@ def test_a_rope_takes_the_same_steps_with_and_without_derivatives_at_any_speed(s
     times = np.arange(0.0, speed / acceleration + 2.0 * dt, dt)
     car = [TrajectoryPoint(2.0 + 0.5 * acceleration * t * t, acceleration * t, acceleration) for t in times]
     for rope in (plain, beside):
-        rope.settle(2.0, tower.shaft.height - 2.0)
+        rope.solve_equilibrium(2.0, tower.shaft.height - 2.0)
         for before, after in pairwise(car):
             rope.step(dt, way(tower.sheave.radius, tower.shaft.height, before, after))
     assert plain.count == beside.rope.count
@@ -213,7 +213,7 @@ def test_a_direction_may_begin_with_other_values_of_what_does_nothing_yet() -> N
     """The runout's phase does nothing without a runout: half a turn of it changes the sign of the answer."""
     runout = {"effects.sheave_eccentricity.eccentricity": 1.0}
     rope = SensitiveRope(MODEL, {"down": runout, "up": runout}, {"up": {"effects.sheave_eccentricity.phase": pi}})
-    rope.settle(5.0, MODEL.shaft.height - 5.0)
+    rope.solve_equilibrium(5.0, MODEL.shaft.height - 5.0)
     ridden(rope, range(30))
     down, up = rope.lateral_displacement().T
     assert up == pytest.approx(-down, rel=1e-4)  # by differences of 1e-7 m, whose contact forces are not quite linear
@@ -222,7 +222,7 @@ def test_a_direction_may_begin_with_other_values_of_what_does_nothing_yet() -> N
 
 def test_a_direction_that_changes_nothing_has_no_derivative() -> None:
     rope = SensitiveRope(MODEL, {"top": {"rope.diameter": 1.0}})
-    rope.settle(5.0, MODEL.shaft.height - 5.0)
+    rope.solve_equilibrium(5.0, MODEL.shaft.height - 5.0)
     ridden(rope, range(10))
     assert np.abs(rope.lateral_displacement()).max() < 1e-9  # roundings of shapes at rest, 1e-12 m, over 1e-3 of the diameter
     assert np.abs(rope.forces()["sheave_force"]).max() < 1e-4

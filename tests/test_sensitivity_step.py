@@ -49,7 +49,7 @@ def motion(time: float) -> TrajectoryPoint:
 
 def carried(rope: CompensationRope | SensitiveRope) -> None:
     """Settle the rope and carry it through the car's swing."""
-    rope.settle(0.5, 0.5)
+    rope.solve_equilibrium(0.5, 0.5)
     for k in range(STEPS):
         rope.step(H, way(STUB.sheave.radius, STUB.shaft.height, motion(k * H), motion((k + 1) * H)))
 

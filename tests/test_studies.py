@@ -141,7 +141,7 @@ def test_a_ride_starts_at_rest_and_ends_where_the_trip_does() -> None:
 
 def test_side_shapes_agree_with_the_sensors() -> None:
     rope = CompensationRope(building(TOWER))
-    rope.settle(20.0, 30.0)
+    rope.solve_equilibrium(20.0, 30.0)
     for side in ("car", "counterweight"):
         heights = np.array([0.5, 7.0, 19.0])
         sensors = [rope.lateral_displacement(side, height)[0] for height in heights]

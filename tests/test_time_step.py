@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
-from comprope.rope.integration.state import State
+from comprope.rope.runtime.kernel_arguments import State
 from comprope.rope.simulator.rope import CompensationRope
 
 from .random_rope import forces as kernel_forces
@@ -35,7 +35,7 @@ def motion(time: float) -> TrajectoryPoint:
 def shaken() -> tuple[CompensationRope, list[State], list[np.ndarray], list[dict[str, float]]]:
     """A rope in the shaft of one metre after time steps of the car's swing; states, forces and energies after each."""
     one = rope(CHANGES, STUB)
-    one.settle(0.5, 0.5)
+    one.solve_equilibrium(0.5, 0.5)
     states, forces, energies = [one.state.copy()], [evaluated(one)], [one.energies()]
     for k in range(STEPS):
         one.step(H, way(STUB.sheave.radius, STUB.shaft.height, motion(k * H), motion((k + 1) * H)))
@@ -48,7 +48,7 @@ def shaken() -> tuple[CompensationRope, list[State], list[np.ndarray], list[dict
 def evaluated(one: CompensationRope) -> np.ndarray:
     """The forces at the state reached, as the outputs have just evaluated them."""
     one.outputs()
-    return one._do.f.copy()
+    return one.workspace.work.f.copy()
 
 
 def free(one: CompensationRope) -> np.ndarray:

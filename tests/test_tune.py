@@ -89,7 +89,7 @@ def test_sampled_courses_are_the_drive_s_own(kind: str) -> None:
 
 def test_the_shape_at_rest_is_the_full_model_s(reduced: ReducedModel) -> None:
     rope = CompensationRope(TOWER)
-    rope.settle(10.0, 40.0)
+    rope.solve_equilibrium(10.0, 40.0)
     heights = np.linspace(0.0, 39.0, 30)
     shape = rest_shape(reduced.rope, np.array([41.5]), (heights + 1.5) / 41.5)[0]
     # 42 mm of offset; the reduced model has no bending above the axle, and the mesh of the full one is coarse.

@@ -29,8 +29,9 @@ def brush(n, t, p, q, v, w, f):
 
 
 @kernel
-def brush_tangent(n, t, p, q, v, w, A, ck, cc):
+def brush_tangent(n, t, p, q, v, w, A, weights):
     """Subtract cc times the derivative of that force by velocity."""
+    cc = weights.cc
     for i in range(1, n - 1):
         if -q[i] < p[TOP]:
             A[work.DYY * (n + 1) + i] += cc * p[DAMPING] * p[LENGTH]

@@ -47,7 +47,7 @@ def ride(rope: CompensationRope, trip: SCurve | ReferenceTrajectory, until: floa
     Raises `SimulationError` where a step cannot be saved.
     """
     model = rope.model
-    rope.settle(trip.origin, model.shaft.height - trip.origin)
+    rope.solve_equilibrium(trip.origin, model.shaft.height - trip.origin)
     yield 0.0
     for k in range(max(1, round(until / interval))):
         rope.step(interval, ends_path(model, trip, k * interval, (k + 1) * interval))

@@ -6,24 +6,21 @@ import numpy as np
 
 from ..fmi.model_interface import ModelInterface, Variable
 from ..fmi.validation import range_text
-from ..rope.compiler.entry_points import compiled
+from ..rope.compiler.codegen import ARRAYS, INTEGERS
+from ..rope.compiler.entry_points import SOURCES
 from ..rope.compiler.workspace import without_friction
 from ..rope.effects.base import REGISTRY, Effect
-from ..rope.integration.input_interpolation import PAST
-from ..rope.integration.outputs import SHOWN
-from ..rope.runtime import status as words
-from ..rope.runtime.jit import kind
+from ..rope.integration.outputs import OUTPUTS
 from ..rope.runtime.parameter_vector import DECLARED
+from ..rope.runtime.status import MESSAGE_VALUES, MESSAGES
 from ..rope.simulator.end_motion import NAMES
 from .llvm_ir import CALLED, PREFIX
 
 _HEADING = "/* Generated from the declarations of the model; not to be edited. */\n"
 _INCLUDES = "#include <stddef.h>\n#include <stdint.h>\n"
-# What makes a rope's state: the arrays of `state.State`, in that order, and the memory of its inputs.
-_STATE = ("q0", "v0", "a0", "f0", "h0", "P0", "E", "start", "count", "time", "past")
-_WINDOWS = ("u", "options", "spots")  # lie among the values of the variables
-_HELD = ("n", "m", "effects", "state_size")  # numbers that stay the same for one rope
-_C = {"integer": "int64_t", "flag": "int8_t", "number": "double", "array": "double *"}
+_LAST_OF_STATE = "Ends.samples"  # the arrays of a rope up to this one are what its state consists of
+_AMONG_VARIABLES = ("Ends.u", "Ends.options", "Outputs.sensors")  # have no memory of their own
+_C_TYPES = {int: "int64_t", bool: "int8_t", float: "double", type(None): "void"}
 
 
 def model_source(interface: ModelInterface, guid: str, token: str) -> str:
@@ -43,8 +40,8 @@ def _row(one: Variable) -> str:
     low = "-INFINITY" if one.minimum is None else _number(one.minimum)
     high = "INFINITY" if one.maximum is None else _number(one.maximum)
     unit = "" if one.unit == "1" else f" {one.unit}"
-    words = (f"{one.role} {one.name}", unit, range_text(one), one.help)
-    name, unit, accepted, help = (quoted(text) for text in words)
+    texts = (f"{one.role} {one.name}", unit, range_text(one), one.help)
+    name, unit, accepted, help = (quoted(text) for text in texts)
     start = _number(float(one.start or 0.0))
     return f"{{{one.kind.upper()}, {one.role.upper()}, {name}, {start}, {low}, {high}, {unit}, {accepted}, {help}}}"
 
@@ -71,10 +68,10 @@ def kernels_header(interface: ModelInterface, sizes: Mapping[int, Mapping[str, i
 
     `sizes` says, for three numbers of nodes, how many numbers each array of a rope has.
     """
-    outputs = {"y": len(interface.of_role("output")), "past": PAST}
-    used = {name for entry in CALLED for name in compiled()[entry].names if kind(name) == "array"} - set(_WINDOWS)
-    chosen = {n: {name: (dict(found) | outputs)[name] for name in sorted(used)} for n, found in sizes.items()}
-    parts = [_constants(interface), _slots(interface), _arrays(chosen), _words(), *(_call(name) for name in CALLED)]
+    fixed = {"Outputs.y": len(interface.of_role("output"))} | dict.fromkeys(_AMONG_VARIABLES, 0)
+    used = {name for entry in CALLED for name in SOURCES[entry].used}
+    chosen = {n: {name: (dict(found) | fixed)[name] for name in ARRAYS if name in used} for n, found in sizes.items()}
+    parts = [_constants(interface), _slots(interface), _arrays(chosen), _messages(), *(_call(name) for name in CALLED)]
     return f"{_HEADING}#ifndef KERNELS_H\n#define KERNELS_H\n\n{_INCLUDES}\n" + "\n".join(parts) + "\n#endif\n"
 
 
@@ -86,17 +83,17 @@ def _constants(interface: ModelInterface) -> str:
     """Places of values that the kernels read where they lie; they must lie in the kernels' order."""
     places = _places(interface)
     sensors = sum(name.startswith("lateral_displacement[") for name in places)
-    spots = [f"sensors[{k}].{what}" for k in range(1, sensors + 1) for what in ("height", "on_counterweight_side")]
-    shown = [f"{what}[{k}]" for k in range(1, sensors + 1) for what in ("lateral_displacement", "in_view")]
+    sensor_values = [f"sensors[{k}].{what}" for k in range(1, sensors + 1) for what in ("height", "on_counterweight_side")]
+    readings = [f"{what}[{k}]" for k in range(1, sensors + 1) for what in ("lateral_displacement", "in_view")]
     firsts = {
-        "FIRST_SENSOR": _first(places, spots, "derivative_inputs"),
+        "FIRST_SENSOR": _first(places, sensor_values, "derivative_inputs"),
         "FIRST_OPTION": _first(places, ["derivative_inputs", "inputs_at_end"]),
         "FIRST_INPUT": _first(places, list(NAMES)),
-        "FIRST_OUTPUT": _first(places, [*shown, *SHOWN]),
+        "FIRST_OUTPUT": _first(places, [*readings, *OUTPUTS]),
         "SENSORS": sensors,
         "EFFECTS": len(effects_of(interface)),
         "HISTORIES": sum(one.states for one in effects_of(interface)),
-        "TOLD": words.TOLD,
+        "MESSAGE_VALUES": MESSAGE_VALUES,
     }
     return "enum {\n" + "".join(f"    {name} = {value},\n" for name, value in firsts.items()) + "};\n"
 
@@ -112,57 +109,63 @@ def _slots(interface: ModelInterface) -> str:
     """Where each of the kernels' parameters stands among the values, and which ones a rope without friction has instead."""
     effects = tuple(f"effects.{one.name}." for one in effects_of(interface))
     known = [k for k, name in enumerate(DECLARED) if not name.startswith("effects.") or name.startswith(effects)]
-    names, smooth = list(DECLARED), without_friction(np.full(len(DECLARED), np.nan)).tolist()
+    names, special = list(DECLARED), without_friction(np.full(len(DECLARED), np.nan)).tolist()
     places = [_places(interface).get(names[k], -1) for k in known]
-    pairs = [f"    {{{slot}, {_number(smooth[k])}}},\n" for slot, k in enumerate(known) if smooth[k] == smooth[k]]
+    pairs = [f"    {{{slot}, {_number(special[k])}}},\n" for slot, k in enumerate(known) if special[k] == special[k]]
     return (
-        f"enum {{ SLOT_COUNT = {len(places)}, SMOOTH_COUNT = {len(pairs)} }};\n\n"
+        f"enum {{ SLOT_COUNT = {len(places)}, FRICTIONLESS_COUNT = {len(pairs)} }};\n\n"
         f"static const int SLOT_PLACES[SLOT_COUNT] = {{{', '.join(map(str, places))}}};\n\n"
-        "static const struct {\n    size_t slot;\n    double value;\n} SMOOTH[SMOOTH_COUNT] = {\n" + "".join(pairs) + "};\n"
+        "static const struct {\n    size_t slot;\n    double value;\n} FRICTIONLESS[FRICTIONLESS_COUNT] = {\n"
+        + "".join(pairs)
+        + "};\n"
     )
 
 
 def _arrays(sizes: Mapping[int, Mapping[str, int]]) -> str:
-    """The arrays of a rope, those of its state first, and their sizes, which grow evenly with the number of nodes."""
+    """The rope's tables of arrays and integers, and the sizes of the arrays, which grow linearly with the number of nodes."""
     few, more, many = sorted(sizes)
-    names = [*_STATE, *(name for name in sizes[few] if name not in _STATE)]
-    rows = []
+    names, rows = list(sizes[few]), []
+    if [ARRAYS[name] for name in names] != list(range(len(names))):
+        raise ValueError("the arrays of a rope do not come first in the kernels' table")
     for name in names:
         slope = (sizes[more][name] - sizes[few][name]) // (more - few)
         fixed = sizes[few][name] - slope * (few + 1)
         if any(sizes[n][name] != slope * (n + 1) + fixed for n in (more, many)):
-            raise ValueError(f"the array {name} does not grow evenly with the number of nodes")
-        rows.append(f"    {{{slope}, {fixed}}}, /* {name} */\n")
-    places = "".join(f"    AT_{name},\n" for name in (*names, *_WINDOWS))
+            raise ValueError(f"the array {name} does not grow linearly with the number of nodes")
+        rows.append(f"    [{_constant(name)}] = {{{slope}, {fixed}}},\n")
+    places = "".join(f"    {_constant(name)},\n" for name in names)
+    integers = [name for name in INTEGERS if name.startswith("RopeData.")]
+    numbers = "".join(f"    {_constant(name)} = {INTEGERS[name]},\n" for name in integers)
     return (
-        f"enum {{\n{places}    ALL_ARRAYS,\n    ARRAYS = AT_{_WINDOWS[0]}, /* that have memory of their own */\n"
-        f"    STATE_ARRAYS = {len(_STATE)},\n}};\n\n"
-        "typedef struct {\n    int64_t " + ", ".join(_HELD) + ";\n    double *array[ALL_ARRAYS];\n} Rope;\n\n"
+        f"enum {{\n{places}    ARRAYS,\n    STATE_ARRAYS = {_constant(_LAST_OF_STATE)} + 1,\n}};\n\n"
+        f"enum {{\n{numbers}    INTEGERS = {len(integers)},\n}};\n\n"
+        "typedef struct {\n    double *array[ARRAYS];\n    int64_t integer[INTEGERS];\n} Rope;\n\n"
         "static const struct {\n    size_t per_column, fixed;\n} SIZES[ARRAYS] = {\n" + "".join(rows) + "};\n"
     )
 
 
-def _words() -> str:
-    texts = {status: text for status, (_, text, _) in words.WORDS.items()}
-    rows = "".join(f"    [{status}] = {quoted(text)},\n" for status, text in sorted(texts.items()))
-    return f"static const char *const WORDS[] = {{\n{rows}}};\n"
+def _constant(name: str) -> str:
+    """The constant in C for an array or integer: STATE_q for `State.q`."""
+    group, _, field = name.partition(".")
+    return f"{group.upper()}_{field}"
+
+
+def _messages() -> str:
+    rows = "".join(f"    [{status}] = {quoted(text)},\n" for status, (_, text, _) in sorted(MESSAGES.items()))
+    return f"static const char *const MESSAGES[] = {{\n{rows}}};\n"
 
 
 def _call(name: str) -> str:
-    """The prototype of a compiled kernel, and a function that calls it with the arrays of a rope filled in."""
-    entry = compiled()[name]
-    result = {"none": "void *", "float64": "double ", "int64": "int64_t "}[str(entry.signature.return_type)]
-    returns = "void" if result == "void *" else result.strip()
-    prototype = ", ".join(f"{_C[kind(one)]}" for one in entry.names)
-    given = "".join(f", {_C[kind(one)]} {one}" for one in entry.names if kind(one) != "array" and one not in _HELD)
-    arguments = ", ".join(_argument(one) for one in entry.names)
-    body = f"    {result}result = 0;\n    void *problem = 0;\n    {PREFIX}{name}(&result, &problem, {arguments});\n"
-    body += "" if returns == "void" else "    return result;\n"
+    """The prototype of a compiled entry point, and a function that calls it with the tables of a rope."""
+    source = SOURCES[name]
+    result = _C_TYPES[source.result]
+    numbers = "".join(f", {_C_TYPES[kind]} {one}" for one, kind in source.scalars.items())
+    given = "".join(f", {one}" for one in source.scalars)
+    stored = "void *" if result == "void" else f"{result} "
+    body = f"    {stored}result = 0;\n    void *problem = 0;\n"
+    body += f"    {PREFIX}{name}(&result, &problem, rope->array, rope->integer{given});\n"
+    body += "" if result == "void" else "    return result;\n"
     return (
-        f"int32_t {PREFIX}{name}({result}*, void **, {prototype});\n\n"
-        f"static inline {returns} rope_{name}(const Rope *rope{given})\n{{\n{body}}}\n"
+        f"int32_t {PREFIX}{name}({stored}*, void **, double **, int64_t *{numbers});\n\n"
+        f"static inline {result} rope_{name}(Rope *rope{numbers})\n{{\n{body}}}\n"
     )
-
-
-def _argument(name: str) -> str:
-    return f"rope->array[AT_{name}]" if kind(name) == "array" else f"rope->{name}" if name in _HELD else name

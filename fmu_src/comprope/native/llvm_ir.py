@@ -2,7 +2,7 @@
 
 Runs as a program in a process of its own, since numba fixes processor and optimisation when it is imported:
 
-    python -m comprope.native.ir code|sizes OUT [EFFECT.py ...]
+    python -m comprope.native.llvm_ir code|sizes OUT [EFFECT.py ...]
 
 EFFECT.py are files of a user's own effects, in the order in which they were first run.
 """
@@ -20,8 +20,11 @@ from typing import Any
 from ..errors import CompropeError
 
 PREFIX = "comprope_"
-# What a program without Python calls, of `compose.ENTRIES`.
-CALLED = ("divide", "coarse", "reach", "settle", "begin_motion", "lead", "travel", "show")
+# Entry points that a program without Python calls, of `entry_points.ENTRIES`.
+CALLED = (
+    "generate_mesh", "check_mesh", "check_reach", "start_at_rest", "start_inputs", "interpolate_inputs", "advance",
+    "evaluate_outputs",
+)  # fmt: skip
 _PLAIN = {"PYTHONHASHSEED": "0", "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0"}
 _NODES = (40, 41, 50)
 # Of the C library: real functions of real numbers, and what compilers themselves call.
@@ -41,7 +44,7 @@ def kernels(files: Mapping[str, str]) -> str:
 
 
 def sizes(files: Mapping[str, str]) -> dict[int, dict[str, int]]:
-    """For some numbers of nodes, how many numbers each array of a rope has, by the arrays' names in the kernels."""
+    """For some numbers of nodes, how many numbers each array of a rope has, by group and name as in `codegen.ARRAYS`."""
     found = json.loads(_apart("sizes", files, {"COMPROPE_PURE_PYTHON": "1"}))
     return {int(nodes): arrays for nodes, arrays in found.items()}
 
@@ -110,11 +113,12 @@ def require_no_python(module: Any) -> None:
 def _sizes() -> str:
     import numpy as np
 
-    from ..rope.compiler.workspace import Bound
+    from ..rope.compiler.codegen import flattened
+    from ..rope.compiler.workspace import RopeWorkspace
     from ..rope.runtime.parameter_vector import DECLARED
 
-    ropes = {n: Bound(n, np.zeros(len(DECLARED))).moving for n in _NODES}
-    return json.dumps({n: {name: array.size for name, array in arrays.items()} for n, arrays in ropes.items()})
+    ropes = {n: flattened(*RopeWorkspace(n, np.zeros(len(DECLARED))).groups) for n in _NODES}
+    return json.dumps({n: {name: np.size(array) for name, array in fields.items()} for n, fields in ropes.items()})
 
 
 if __name__ == "__main__":

@@ -20,9 +20,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array
 
-from comprope.rope.mechanics import effect_hooks, equations_of_motion, internal_forces
-from comprope.rope.mechanics import sheave_contact as contact
+from comprope.rope.mechanics import (
+    contact_law,
+    contact_tangent,
+    effect_hooks,
+    equations_of_motion,
+    internal_forces,
+    sheave_contact,
+)
 from comprope.rope.runtime import array_layout
+from comprope.rope.runtime.kernel_arguments import Motion, Weights, Workspace
 from comprope.rope.runtime.parameter_vector import C
 from comprope.rope.simulator.rope import CompensationRope
 
@@ -75,17 +82,20 @@ def _tangent(rope: CompensationRope, p: Floats, ck: float, cc: float) -> tuple[F
     """-ck df/dq - cc df/dv at rest: the rope's band, the contact's blocks, and the nodes these reach from and to."""
     n, m, kernels = rope.n, rope.n + 1, _interpreted()
     sizes = (array_layout.SECTIONS * m, array_layout.BAND * m, array_layout.CONTACT * m + 4, 2 * m, 2 * m, array_layout.TOUCH, 1)
-    w, band, blocks, v, f, touch, none = ([0.0] * size for size in sizes)
-    values, q = p.tolist(), np.asarray(rope.state.q).tolist()
-    kernels["forces"](n, 0.0, values, q, v, w, f, touch, none, none, none, blocks, ck, cc, True)
-    kernels["tangent_band"](n, 0.0, values, q, v, w, band, 0.0, ck, cc)
-    return np.array(band), np.array(blocks), int(touch[array_layout.FIRST]), int(touch[array_layout.LAST])
+    arrays: Any = ([0.0] * size for size in sizes)
+    w, A, Z, v, f, touch, none = arrays
+    q: Any = np.asarray(rope.state.q).tolist()
+    values, motion = p.tolist(), Motion(q, v, none)
+    work = Workspace(w, f, none, none, touch, none, A, none, none, Z, none, none)
+    kernels["forces"](n, 0.0, values, motion, none, work, Weights(ck, cc), True)
+    kernels["tangent_band"](n, 0.0, values, motion, work, 0.0, Weights(ck, cc))
+    return np.array(A), np.array(Z), int(touch[array_layout.FIRST]), int(touch[array_layout.LAST])
 
 
 @cache
 def _interpreted() -> dict[str, Any]:
     """The kernels without effects as interpreted Python functions on lists: faster than compilation for two calls."""
-    modules = (effect_hooks, internal_forces, contact, equations_of_motion)
+    modules = (effect_hooks, internal_forces, contact_law, contact_tangent, sheave_contact, equations_of_motion)
     names = {key: value for module in modules for key, value in vars(module).items()}
     for key, value in names.items():
         function = getattr(value, "py_func", value)

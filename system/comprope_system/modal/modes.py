@@ -62,7 +62,7 @@ def modes(model: Base, car: float, count: int = 10) -> Modes:
     Raises `InputError` or `SimulationError` if there is no static equilibrium.
     """
     rope = CompensationRope(model)
-    rope.settle(car, model.shaft.height - car)
+    rope.solve_equilibrium(car, model.shaft.height - car)
     small = linearise(rope)
     values, vectors = _slowest(small, min(count, len(small.mass) - 2))
     found = (_mode(rope, value, small.full(vector)) for value, vector in zip(values, vectors.T, strict=True))

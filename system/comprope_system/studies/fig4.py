@@ -29,7 +29,7 @@ def static_offset(case: Case) -> list[float]:
     """Outward displacements [m] at PLACES of the rope at rest."""
     model = model_in(case)
     rope = CompensationRope(model)
-    rope.settle(CAR, model.shaft.height - CAR)
+    rope.solve_equilibrium(CAR, model.shaft.height - CAR)
     return [rope.lateral_displacement(side, height)[0] for side, height in PLACES]
 
 

@@ -49,7 +49,7 @@ def at_rest(changes: dict[str, float]) -> Floats:
     model = building(TOWER, changes)
     rope, found = CompensationRope(model), []
     for car in CARS:
-        rope.settle(car, model.shaft.height - car)
+        rope.solve_equilibrium(car, model.shaft.height - car)
         found.append(seen(rope))
     return np.array(found)
 
@@ -58,7 +58,7 @@ def led_sideways(changes: dict[str, float]) -> Floats:
     """Displacements [m] during a lateral motion of the counterweight end (times, heights): no rope runs over the sheave."""
     model, car = building(TOWER, changes), 10.0
     rope, found = CompensationRope(model), []
-    rope.settle(car, model.shaft.height - car)
+    rope.solve_equilibrium(car, model.shaft.height - car)
     path = np.zeros((PATHS, PATH))
     path[:, 0] = path[:, 3] = -car, -model.sheave.radius, car - model.shaft.height, model.sheave.radius
     for k in range(round(SWING / COARSE)):

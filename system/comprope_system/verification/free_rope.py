@@ -14,6 +14,7 @@ from comprope.rope.integration import newmark
 from comprope.rope.linalg import block_band
 from comprope.rope.mechanics import internal_forces
 from comprope.rope.runtime import array_layout
+from comprope.rope.runtime.kernel_arguments import Motion
 from comprope.rope.runtime.parameter_vector import vector
 
 from ..prescribed_trip import Floats
@@ -69,7 +70,7 @@ class FreeRope:
         m, self.element = self.n + 1, rope.length / rope.elements
         self.q, self.v, self.a, self.f, self.r = (np.zeros(2 * m) for _ in range(5))
         self.w, self.A, self.L = (np.zeros(size * m) for size in (array_layout.SECTIONS, array_layout.BAND, block_band.FACTOR))
-        self.count = np.zeros(newmark.COUNTS)
+        self.counters = np.zeros(newmark.COUNTERS)
         self.masses = np.full(self.n, rope.mass_per_length * self.element)
         self.masses[-1] = rope.mass + 0.5 * rope.mass_per_length * self.element
         below = np.cumsum(self.masses[::-1])[::-1]
@@ -80,13 +81,13 @@ class FreeRope:
     def step(self, time: float, h: float) -> None:
         """Advance to `time` [s] by one step of length h [s]; raises `ArithmeticError` where it does not converge."""
         n, m = self.n, self.n + 1
-        q0, v0, a0 = self.q.copy(), self.v.copy(), self.a.copy()
-        newmark.predict(n, self.p, h, q0, v0, a0, self.q, self.v, self.a)
+        motion = Motion(self.q, self.v, self.a)
+        newmark.predict(n, h, Motion(*(one.copy() for one in motion)), motion)
         self.q[m], self.v[m], self.a[m] = self.lead(time)
         for _ in range(ITERATIONS):
             self._residual()
             self._solve(h)
-            if newmark.correct(n, self.p, h, self.r, self.q, self.v, self.a, self.count) < TOLERANCE:
+            if newmark.correct(n, self.p, h, self.r, motion, self.counters) < TOLERANCE:
                 return
         raise ArithmeticError(f"no convergence at t = {time:g} s")
 

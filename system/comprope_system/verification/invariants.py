@@ -29,7 +29,7 @@ def mirror_difference() -> float:
     """Largest difference [m] between a trip up and its mirror image, displacements at HEIGHTS with sides exchanged."""
     model, trip = building(TOWER), up(TOWER, DISTANCE)
     plain, image = CompensationRope(model), CompensationRope(model)
-    image.settle(model.shaft.height - trip.origin, trip.origin)
+    image.solve_equilibrium(model.shaft.height - trip.origin, trip.origin)
     largest = 0.0
     for k, _ in enumerate(ride(plain, trip, UNTIL)):
         for side, other in (("car", "counterweight"), ("counterweight", "car")):
@@ -45,7 +45,7 @@ def restart_differs() -> bool:
     model, trip = building(TOWER), up(TOWER, DISTANCE)
     rope, other = CompensationRope(model), CompensationRope(model)
     steps = list(enumerate(ride(rope, trip, 6.0)))
-    other.settle(trip.origin, model.shaft.height - trip.origin)
+    other.solve_equilibrium(trip.origin, model.shaft.height - trip.origin)
     other.state.from_bytes(rope.state.to_bytes())
     for k in range(steps[-1][0], steps[-1][0] + 150):
         for one in (rope, other):

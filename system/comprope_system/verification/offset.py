@@ -41,7 +41,7 @@ def closed_form(model: Base, heights: Floats) -> Floats:
 def at_rest(model: Base) -> Floats:
     """The same from the model, at HEIGHTS."""
     rope = CompensationRope(model)
-    rope.settle(0.0, model.shaft.height)
+    rope.solve_equilibrium(0.0, model.shaft.height)
     return side_shape(rope, "counterweight", HEIGHTS)
 
 

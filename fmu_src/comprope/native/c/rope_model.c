@@ -5,15 +5,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Add a kernel's refusal in the words it shares with Python; returns whether there was none. */
-static bool fine(const Rope *rope, int64_t status, Message *problems)
+/* Whether a kernel has succeeded; if not, the message that it shares with Python is added. */
+static bool kernel_succeeded(const Rope *rope, int64_t status, Message *problems)
 {
-    const double *told = rope->array[AT_told];
+    const double *values = rope->array[WORKSPACE_message];
     if (status == 0) {
         return true;
     }
     message_next(problems);
-    message_add(problems, WORDS[status], told[0], told[1], told[2], told[3], told[4], told[5]);
+    message_add(problems, MESSAGES[status], values[0], values[1], values[2], values[3], values[4], values[5]);
     return false;
 }
 
@@ -30,7 +30,7 @@ static size_t size_of(size_t array, size_t columns)
     return SIZES[array].per_column * columns + SIZES[array].fixed;
 }
 
-/* Point the arrays into the block, which begins with those that make the state. */
+/* Point the arrays into the block, which begins with those of the state; some are among the variables' values. */
 static void divide_block(RopeModel *model, double *values, size_t columns)
 {
     double *at = model->block;
@@ -41,9 +41,9 @@ static void divide_block(RopeModel *model, double *values, size_t columns)
             model->state_numbers = (size_t)(at - model->block);
         }
     }
-    model->rope.array[AT_u] = values + FIRST_INPUT;
-    model->rope.array[AT_options] = values + FIRST_OPTION;
-    model->rope.array[AT_spots] = values + FIRST_SENSOR;
+    model->rope.array[ENDS_u] = values + FIRST_INPUT;
+    model->rope.array[ENDS_options] = values + FIRST_OPTION;
+    model->rope.array[OUTPUTS_sensors] = values + FIRST_SENSOR;
 }
 
 static bool allocate_block(RopeModel *model, Allocator allocator, size_t columns, Message *problems)
@@ -69,28 +69,27 @@ static bool allocate_block(RopeModel *model, Allocator allocator, size_t columns
 
 bool rope_model_prepare(RopeModel *model, Allocator allocator, double *values, Message *problems)
 {
-    double p[SLOT_COUNT], told[TOLD];
+    double p[SLOT_COUNT], message[MESSAGE_VALUES];
     Rope *rope = &model->rope;
 
     flatten(values, p);
-    rope->array[AT_p] = p;
-    rope->array[AT_told] = told;
-    if (!fine(rope, rope_coarse(rope), problems)) {
+    rope->array[ROPEDATA_p] = p;
+    rope->array[WORKSPACE_message] = message;
+    if (!kernel_succeeded(rope, rope_check_mesh(rope), problems)) {
         return false;
     }
-    const size_t columns = (size_t)rope_divide(rope) + 1;
+    const size_t columns = (size_t)rope_generate_mesh(rope) + 1;
     if (!allocate_block(model, allocator, columns, problems)) {
         return false;
     }
-    rope->n = (int64_t)columns - 1;
-    rope->m = SENSORS;
-    rope->effects = EFFECTS;
-    rope->state_size = HISTORIES * (int64_t)columns;
+    rope->integer[ROPEDATA_n] = (int64_t)columns - 1;
+    rope->integer[ROPEDATA_effects] = EFFECTS;
+    rope->integer[ROPEDATA_history_size] = HISTORIES * (int64_t)columns;
     divide_block(model, values, columns);
-    memcpy(rope->array[AT_p], p, sizeof p);
-    memcpy(rope->array[AT_smooth], p, sizeof p);
-    for (size_t k = 0; k < SMOOTH_COUNT; k++) {
-        rope->array[AT_smooth][SMOOTH[k].slot] = SMOOTH[k].value;
+    memcpy(rope->array[ROPEDATA_p], p, sizeof p);
+    memcpy(rope->array[ROPEDATA_frictionless], p, sizeof p);
+    for (size_t k = 0; k < FRICTIONLESS_COUNT; k++) {
+        rope->array[ROPEDATA_frictionless][FRICTIONLESS[k].slot] = FRICTIONLESS[k].value;
     }
     return true;
 }
@@ -98,30 +97,30 @@ bool rope_model_prepare(RopeModel *model, Allocator allocator, double *values, M
 bool rope_model_initialize(RopeModel *model, double t, Message *problems)
 {
     Rope *rope = &model->rope;
-    if (!fine(rope, rope_reach(rope, t), problems)) {
+    if (!kernel_succeeded(rope, rope_check_reach(rope, t), problems)) {
         return false;
     }
     memset(model->block, 0, model->state_numbers * sizeof(double));
-    rope->array[AT_time][0] = t;
-    rope_begin_motion(rope, t);
-    return fine(rope, rope_settle(rope, t), problems);
+    rope->array[STATE_time][0] = t;
+    rope_start_inputs(rope, t);
+    return kernel_succeeded(rope, rope_start_at_rest(rope, t), problems);
 }
 
 bool rope_model_step(RopeModel *model, double t, double dt, Message *problems)
 {
     Rope *rope = &model->rope;
-    if (!fine(rope, rope_reach(rope, t), problems)) {
+    if (!kernel_succeeded(rope, rope_check_reach(rope, t), problems)) {
         return false;
     }
-    rope->array[AT_time][0] = t;
-    rope_lead(rope, t, dt);
-    return fine(rope, rope_travel(rope, dt), problems);
+    rope->array[STATE_time][0] = t;
+    rope_interpolate_inputs(rope, t, dt);
+    return kernel_succeeded(rope, rope_advance(rope, dt), problems);
 }
 
 const double *rope_model_outputs(RopeModel *model)
 {
-    rope_show(&model->rope);
-    return model->rope.array[AT_y];
+    rope_evaluate_outputs(&model->rope, SENSORS);
+    return model->rope.array[OUTPUTS_y];
 }
 
 void rope_model_free(RopeModel *model, Allocator allocator)

@@ -1,5 +1,5 @@
-/* One rope as the face sees it: opened at rest, stepped, shown, saved. `values` are those of all variables of the
- * model. */
+/* One rope for the functions of FMI: started at rest, stepped, its outputs evaluated, its state saved. `values` are
+ * those of all variables of the model. */
 #ifndef ROPE_MODEL_H
 #define ROPE_MODEL_H
 
@@ -20,10 +20,10 @@ typedef struct {
 /* Ready the memory for the parameters among the values, which must be in range; it is taken once for one mesh. */
 bool rope_model_prepare(RopeModel *model, Allocator allocator, double *values, Message *problems);
 
-/* Hang the rope at rest between its ends at the time t [s]. */
+/* Bring the rope to static equilibrium between its ends at the time t [s]. */
 bool rope_model_initialize(RopeModel *model, double t, Message *problems);
 
-/* Advance from t to t + dt [s]; a step that is lost tells where and when. */
+/* Advance from t to t + dt [s]; the message of a step that does not converge says where and when. */
 bool rope_model_step(RopeModel *model, double t, double dt, Message *problems);
 
 /* All outputs, in the order of their variables, valid until the next call. */

@@ -66,11 +66,11 @@ def drag(n, t, p, q, v, w, f):
 
 
 @kernel
-def drag_tangent(n, t, p, q, v, w, A, ck, cc):
+def drag_tangent(n, t, p, q, v, w, A, weights):
     """Damping 2 k |v_n| n n' of every inner node."""
     if p[CD] == 0.0:
         return
-    m, k = n + 1, 0.5 * p[DENSITY] * p[CD] * p[DIAMETER] * p[ELEMENT]
+    m, k, cc = n + 1, 0.5 * p[DENSITY] * p[CD] * p[DIAMETER] * p[ELEMENT], weights.cc
     for i in range(1, n - 1):
         nx, ny, u = normal_velocity(n, p, v, w, q[m + i], i)
         damping = 2.0 * cc * k * abs(u)

@@ -1,16 +1,16 @@
 """What an effect is: quantities declared once, and kernels for the places where it acts.
 
 An effect may act in these ways, each a kernel of fixed arguments (n nodes, m = n + 1 columns per
-section, see `work`; HOOKS):
+section, see `runtime.array_layout`; HOOKS):
 
     moments(n, p, w, h0, h1) -> W       adds to w[MOMENT], and its derivative by curvature to w[STIFF]
     forces(n, t, p, q, v, w, f) -> W    adds forces to f, on nodes or on the sheave (column n)
-    tangents(n, t, p, q, v, w, A, ck, cc)   subtracts ck df/dq + cc df/dv of its forces from A
+    tangents(n, t, p, q, v, w, A, weights)   subtracts ck df/dq + cc df/dv of its forces from A; ck, cc = weights
     ends(n, t, p, q, v, a)              moves the rope's ends sideways
     groove(p, angle) -> x, y, x', y'    offset of the groove's centre from the axle, and by angle
     begin(n, p, w, h0)                  sets the history h0 of a rope at rest
 
-An effect with history is taken out while the rope settles: it begins in the shape at rest.
+An effect with history is left out of the static equilibrium: its history begins there.
 
 W is the power [W] that the effect puts into rope and sheave. With every quantity at its neutral
 value a kernel must change nothing.
@@ -23,17 +23,19 @@ from typing import Any, ClassVar
 from ...errors import InputError
 from ...quantities import Component
 from ..runtime import parameter_vector
+from ..runtime.kernel_arguments import Weights
 
 Kernel = Callable[..., Any]
-# The arguments of each kernel.
+# The arguments of each kernel; their types are HOOK_TYPES.
 HOOKS = {
     "moments": "n, p, w, h0, h1",
     "forces": "n, t, p, q, v, w, f",
-    "tangents": "n, t, p, q, v, w, A, ck, cc",
+    "tangents": "n, t, p, q, v, w, A, weights",
     "ends": "n, t, p, q, v, a",
     "groove": "p, angle",
     "begin": "n, p, w, h0",
 }
+HOOK_TYPES: dict[str, Any] = {"n": int, "t": float, "angle": float, "weights": Weights}  # all others are arrays
 # What instruments do to what they show: one value per channel. No part of the rope, so the kernels know nothing of it.
 INSTRUMENT = {
     "sensor_gain": "what a channel shows over what is there, by the channel's column",

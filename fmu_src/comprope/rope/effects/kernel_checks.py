@@ -1,4 +1,4 @@
-"""Is a user's own effect sound? Its kernels compile, are finite, do nothing when neutral, and agree with each other.
+"""Consistency of a user's own effect: its kernels compile, are finite, do nothing when neutral, and agree with each other.
 
 What is asked holds for every effect of comprope: powers are those of the forces, velocities are derivatives of positions,
 and tangents of forces. Tangents may leave out what is small.
@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from ...errors import InputError
 from ..runtime import jit
 from ..runtime.array_layout import BAND, BEND_RATE, CURVATURE, MOMENT, STIFF
+from ..runtime.kernel_arguments import Weights
 from ..runtime.parameter_vector import ELEMENT
-from .base import HOOKS, Effect
+from .base import HOOK_TYPES, HOOKS, Effect
 from .trial_state import NODES, STEP, TIME, Trial
 
 Floats = NDArray[np.float64]
@@ -26,7 +27,7 @@ _BLOCKS = ((0, 0), (1, 3), (2, 7))  # how far apart the nodes of a block of the 
 _RETURNED = {"groove": "x, y and their derivatives by the angle", "moments": "the power [W]", "forces": "the power [W]"}
 
 
-def require_sound(effect: type[Effect]) -> None:
+def require_consistent(effect: type[Effect]) -> None:
     """Raise `InputError`, with file and line, for the first thing that is wrong with an effect's kernels."""
     for hook, function in effect.hooks.items():
         try:
@@ -42,10 +43,10 @@ def _uncompilable(function: Any, hook: str) -> str | None:
     """Why a kernel cannot be compiled for arrays without a length, as the joined kernels are."""
     if jit.PURE:
         return None
-    types = {"integer": numba.int64, "number": numba.float64, "array": numba.types.CPointer(numba.float64)}
-    kinds = ["number" if name == "angle" else jit.kind(name) for name in HOOKS[hook].split(", ")]
+    weights = numba.types.NamedUniTuple(numba.float64, len(Weights._fields), Weights)
+    types: dict[Any, Any] = {int: numba.int64, float: numba.float64, Weights: weights}
     try:
-        function.compile(tuple(types[kind] for kind in kinds))
+        function.compile(tuple(types.get(HOOK_TYPES.get(name), jit.POINTER) for name in HOOKS[hook].split(", ")))
     except NumbaError as error:
         return _compiler_words([line.strip() for line in str(error).splitlines()])
     return None
@@ -134,9 +135,9 @@ def _moments(effect: type[Effect]) -> str | None:
 def _tangents(effect: type[Effect]) -> str | None:
     if "forces" not in effect.hooks:
         return "without forces there is nothing to differentiate"
-    for factor, array, word in (("ck", "q", "position"), ("cc", "v", "velocity")):
+    for weights, array, word in ((Weights(1.0, 0.0), "q", "position"), (Weights(0.0, 1.0), "v", "velocity")):
         trial = Trial(effect, nominal=True)
-        trial.at[factor] = 1.0
+        trial.at["weights"] = weights
         trial.call("tangents")
         stated, held = _dense(trial.at["A"]), _dense(np.ones_like(trial.at["A"]))
         found = -held * np.array([trial.slope(_mover(trial.at[array], k), trial.forces) for k in range(2 * NODES + 2)]).T

@@ -7,20 +7,21 @@ what they read from the workspace w are left out, so Newton's iteration may take
 from typing import Any
 
 from ..runtime.array_layout import DXX, DXY, DYY
-from ..runtime.jit import room
+from ..runtime.jit import stack_array
 
 STEP = 1e-6  # m or m/s, by which nodes are moved
 APART = 3
-own_forces: Any = None  # the effect's kernel, put here by `compose`
+effect_kernel: Any = None  # forces of the effect: `compiler` puts its kernel here
 
 
-def differenced(n, t, p, q, v, w, A, ck, cc):
-    """Subtract ck df/dq + cc df/dv from A: positions and velocities are moved together, in that proportion."""
+def difference_forces(n, t, p, q, v, w, A, weights):
+    """Subtract ck df/dq + cc df/dv from A (ck, cc = weights): positions and velocities are moved together, in that proportion."""
+    ck, cc = weights
     m, e = n + 1, STEP / max(abs(ck), abs(cc))
-    q1, v1, f0, f1 = room(2 * m), room(2 * m), room(2 * m), room(2 * m)
+    q1, v1, f0, f1 = stack_array(2 * m), stack_array(2 * m), stack_array(2 * m), stack_array(2 * m)
     for k in range(2 * m):
         q1[k], v1[k], f0[k] = q[k], v[k], 0.0
-    own_forces(n, t, p, q1, v1, w, f0)
+    effect_kernel(n, t, p, q1, v1, w, f0)
     for c in (0, m):
         for first in range(1, 1 + APART):
             for k in range(2 * m):
@@ -28,7 +29,7 @@ def differenced(n, t, p, q, v, w, A, ck, cc):
             for i in range(first, m, APART):
                 q1[c + i] += e * ck
                 v1[c + i] += e * cc
-            own_forces(n, t, p, q1, v1, w, f1)
+            effect_kernel(n, t, p, q1, v1, w, f1)
             for i in range(first, m, APART):
                 x, y = (f1[i] - f0[i]) / e, (f1[m + i] - f0[m + i]) / e
                 A[DXX * m + i] -= x if c == 0 else 0.0

@@ -64,9 +64,9 @@ def bearing(n, t, p, q, v, w, f):
 
 
 @kernel
-def bearing_tangent(n, t, p, q, v, w, A, ck, cc):
+def bearing_tangent(n, t, p, q, v, w, A, weights):
     """Derivative of the bearing's torque by angular velocity."""
-    A[DYY * (n + 1) + n] += cc * (p[TORQUE] * sign(v[2 * n + 1], TURN0)[1] + p[VISCOUS])
+    A[DYY * (n + 1) + n] += weights.cc * (p[TORQUE] * sign(v[2 * n + 1], TURN0)[1] + p[VISCOUS])
 
 
 @kernel
@@ -78,9 +78,9 @@ def guide(n, t, p, q, v, w, f):
 
 
 @kernel
-def guide_tangent(n, t, p, q, v, w, A, ck, cc):
+def guide_tangent(n, t, p, q, v, w, A, weights):
     """Derivative of the guides' friction by velocity."""
-    A[DXX * (n + 1) + n] += cc * p[GUIDE] * sign(v[n], LIFT0)[1]
+    A[DXX * (n + 1) + n] += weights.cc * p[GUIDE] * sign(v[n], LIFT0)[1]
 
 
 @kernel
@@ -91,9 +91,9 @@ def damper(n, t, p, q, v, w, f):
 
 
 @kernel
-def damper_tangent(n, t, p, q, v, w, A, ck, cc):
+def damper_tangent(n, t, p, q, v, w, A, weights):
     """The damper's constant."""
-    A[DXX * (n + 1) + n] += cc * p[DAMPER]
+    A[DXX * (n + 1) + n] += weights.cc * p[DAMPER]
 
 
 acts(BearingFriction, forces=bearing, tangents=bearing_tangent)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..mechanics import internal_forces
 from ..runtime.array_layout import BAND, SECTIONS
+from ..runtime.kernel_arguments import Weights
 from ..runtime.parameter_vector import DECLARED, ELEMENT, HEIGHT, PIT, R
 from .base import HOOKS, Effect, sections
 
@@ -24,7 +25,7 @@ class Trial:
         self.p = np.array([self._value(name, nominal) for name in DECLARED])
         at = _hanging(self.p)
         m = n + 1
-        self.at: dict[str, Any] = {"n": n, "t": TIME, "p": self.p, "angle": 0.3, "ck": 0.0, "cc": 0.0}
+        self.at: dict[str, Any] = {"n": n, "t": TIME, "p": self.p, "angle": 0.3, "weights": Weights(0.0, 0.0)}
         self.at["q"] = np.concatenate([at[0], [self.p[PIT]], at[1], [0.3]]) + 1e-3 * random.normal(size=2 * m)
         self.at |= {"v": 0.2 * random.normal(size=2 * m), "a": random.normal(size=2 * m), "f": np.zeros(2 * m)}
         history = 0.05 * random.normal(size=sections([effect.name]) * m + 1)

@@ -202,4 +202,5 @@ def _require_kernel(hook: str, function: Kernel, module: types.ModuleType, lines
         raise _WrongError(f"{name}: not a kernel; write @kernel above it", line)
     arguments = ", ".join(plain.__code__.co_varnames[: plain.__code__.co_argcount])
     if arguments != HOOKS[hook]:
-        raise _WrongError(f"{name}({arguments}): for {hook} the arguments ({HOOKS[hook]}) are accepted", line)
+        unpacked = ", where ck, cc = weights" if hook == "tangents" else ""
+        raise _WrongError(f"{name}({arguments}): for {hook} the arguments ({HOOKS[hook]}) are accepted{unpacked}", line)

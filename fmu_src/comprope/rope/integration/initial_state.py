@@ -1,36 +1,36 @@
-"""How a rope comes to hang at rest between its ends: its mesh, a first shape, and equilibrium from there.
-
-The array u holds the ends' inputs: what the FMU has as inputs, in the same order.
-"""
+"""The state at the start: a rope at rest between its ends, from an initial guess to static equilibrium."""
 
 from math import cos, pi, sin
 
 from ..mechanics.effect_hooks import all_begin
-from ..mechanics.end_conditions import PATH, PATHS, place_ends
-from ..mechanics.energy import open_ledger
-from ..mechanics.equations_of_motion import forces
+from ..mechanics.end_conditions import PATH, PATHS, place_ends_of_state
+from ..mechanics.energy import begin_balance
+from ..mechanics.equations_of_motion import forces_of_state
 from ..runtime.jit import kernel
+from ..runtime.kernel_arguments import Ends, Motion, RopeData, State, Weights, Workspace
 from ..runtime.parameter_vector import ELEMENT, M, R
-from ..runtime.status import FINE, NO_REST, OUT_OF_REACH
+from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_REACH, SUCCESS
 from .inputs import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
 from .mesh import rope_length
 from .newmark import copy
-from .static_equilibrium import rest
+from .static_equilibrium import solve_equilibrium
 
 
 @kernel
-def out_of_reach(p, u, t, told):
-    """Refuse ends between which the rope cannot hang; returns the kind of refusal."""
+def check_reach(rope: RopeData, ends: Ends, work: Workspace, t: float) -> int:
+    """Refuse ends between which the rope cannot hang; returns SUCCESS or the kind of refusal."""
+    p, u, message = rope.p, ends.u, work.message
     length = rope_length(p)
     lowest = 0.5 * (u[CAR] + u[COUNTERWEIGHT] - (length - pi * p[R]))
     if min(u[CAR], u[COUNTERWEIGHT]) - lowest >= p[R]:
-        return FINE
-    told[0], told[1], told[2], told[3], told[4], told[5] = u[CAR], u[COUNTERWEIGHT], t, length, lowest, p[R]
+        return SUCCESS
+    message[0], message[1], message[2] = u[CAR], u[COUNTERWEIGHT], t
+    message[3], message[4], message[5] = length, lowest, p[R]
     return OUT_OF_REACH
 
 
 @kernel
-def lay(n, p, u, q):
+def initial_guess(n, p, u, q):
     """Set q to straight sides and a half circle that hold the natural length."""
     m, radius = n + 1, p[R]
     axle = 0.5 * (rope_length(p) - pi * radius - u[CAR] - u[COUNTERWEIGHT])
@@ -47,38 +47,34 @@ def lay(n, p, u, q):
 
 
 @kernel
-def stay(p, u, path):
+def fix_ends(p, u, path):
     """Set a path on which the ends stay where they are."""
     for k in range(PATHS * PATH):
         path[k] = 0.0
-    for at in (0, 3):
-        path[at] = -u[CAR]
-        path[PATH + at] = -p[R] - u[CAR_OUT]
-        path[2 * PATH + at] = -u[COUNTERWEIGHT]
-        path[3 * PATH + at] = p[R] + u[COUNTERWEIGHT_OUT]
+    for k in (0, 3):
+        path[k] = -u[CAR]
+        path[PATH + k] = -p[R] - u[CAR_OUT]
+        path[2 * PATH + k] = -u[COUNTERWEIGHT]
+        path[3 * PATH + k] = p[R] + u[COUNTERWEIGHT_OUT]
 
 
 @kernel
-def settle(
-    n, t, p, smooth, u, path, q0, v0, a0, f0, h0, f, h1, w, A, L, B, Z, r, touch, power, effects, P0, E, start, told,
-):  # fmt: skip
-    """Hang a rope whose state is all zero at rest; returns FINE or the kind of failure.
-
-    `smooth` are its parameters without friction and without effects that have a history.
-    """
-    lay(n, p, u, q0)
-    stay(p, u, path)
-    place_ends(n, t, p, path, 1.0, 0.0, q0, v0, a0)
+def start_at_rest(rope: RopeData, ends: Ends, state: State, work: Workspace, t: float) -> int:
+    """Bring a rope whose state is all zero to static equilibrium; returns SUCCESS or the kind of failure."""
+    n, p, u, q, v, a = rope.n, rope.p, ends.u, state.q, state.v, state.a
+    initial_guess(n, p, u, q)
+    fix_ends(p, u, ends.path)
+    place_ends_of_state(rope, ends, state, t, 1.0, 0.0)
     for i in range(2 * (n + 1)):
-        v0[i] = 0.0
-        a0[i] = 0.0
-    if rest(n, smooth, q0, v0, w, f, touch, h0, h1, power, A, L, B, Z, r, p[ELEMENT]) < 0.0:
-        told[0], told[1], told[2] = u[CAR], u[COUNTERWEIGHT], p[M]
-        return NO_REST
-    for turn in range(2):  # once for the shape where histories begin, once with them
-        forces(n, t, p, q0, v0, w, f, touch, h0, h1, power, Z, 0.0, 0.0, False)
-        if turn == 0:
-            all_begin(n, p, w, h0)
-    copy(2 * (n + 1), f, f0)
-    open_ledger(n, p, q0, v0, a0, f, w, touch, power, effects, P0, E, start)
-    return FINE
+        v[i] = 0.0
+        a[i] = 0.0
+    if solve_equilibrium(n, rope.frictionless, Motion(q, v, a), state.history, work) < 0.0:
+        work.message[0], work.message[1], work.message[2] = u[CAR], u[COUNTERWEIGHT], p[M]
+        return NO_EQUILIBRIUM
+    for k in range(2):  # once for the shape where histories begin, once with them
+        forces_of_state(rope, state, work, t, Weights(0.0, 0.0), False)
+        if k == 0:
+            all_begin(n, p, work.w, state.history)
+    copy(2 * (n + 1), work.f, state.f)
+    begin_balance(rope, state, work)
+    return SUCCESS

@@ -3,11 +3,12 @@
 from math import pi, sqrt
 
 from ..runtime.jit import kernel
+from ..runtime.kernel_arguments import RopeData, Workspace
 from ..runtime.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, K, M, R, slot
-from ..runtime.status import FINE, TOO_COARSE
+from ..runtime.status import SUCCESS, TOO_COARSE
 
 LENGTH = slot("rope.element_length")
-FEWEST = 16  # elements
+FEWEST_ELEMENTS = 16
 
 
 @kernel
@@ -17,7 +18,7 @@ def rope_length(p):
 
 
 @kernel
-def cut_off(p, l):
+def chord_shortening(p, l):
     """By how much chords of length l are shorter than the rope where it bends on to the sheave and off it [m].
 
     To second order in l the energy of the polygon differs from that of the rope by -T l^2 (2 L + A) / (48 R^2), where
@@ -36,19 +37,21 @@ def cut_off(p, l):
 def element_length(p, elements):
     """Natural length of each element [m], so many on the whole rope."""
     length = rope_length(p)
-    return (length - cut_off(p, length / elements)) / elements
+    return (length - chord_shortening(p, length / elements)) / elements
 
 
 @kernel
-def divide(p):
+def generate_mesh(rope: RopeData) -> float:
     """Set the length of whole elements that make up the rope; returns the number of nodes."""
-    elements = max(round(rope_length(p) / p[LENGTH]), FEWEST)
+    p = rope.p
+    elements = max(round(rope_length(p) / p[LENGTH]), FEWEST_ELEMENTS)
     p[ELEMENT] = element_length(p, elements)
     return elements + 1.0
 
 
 @kernel
-def coarse(p, told):
-    """Refuse elements too long to lie round the sheave; returns the kind of refusal."""
-    told[0], told[1] = p[LENGTH], p[R]
-    return TOO_COARSE if p[LENGTH] > 0.5 * p[R] else FINE
+def check_mesh(rope: RopeData, work: Workspace) -> int:
+    """Refuse elements too long to lie round the sheave; returns SUCCESS or the kind of refusal."""
+    p, message = rope.p, work.message
+    message[0], message[1] = p[LENGTH], p[R]
+    return TOO_COARSE if p[LENGTH] > 0.5 * p[R] else SUCCESS

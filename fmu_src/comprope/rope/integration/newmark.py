@@ -6,7 +6,7 @@ and Taylor 1977). alpha = 0 is the paper's rule (1/4, 1/2).
 
 The tangent is factored once per step and again only when the corrections do not shrink fast. A
 correction below `TOLERANCE` metres ends the iteration. A step that does not converge is restored and
-halved, up to `DEEPEST` times; what is accepted has always converged.
+halved, up to `MOST_HALVINGS` times; what is accepted has always converged.
 """
 
 from math import isfinite
@@ -15,25 +15,34 @@ from ..linalg.block_band import factor, inwards, outwards
 from ..linalg.bordered_band import factor_zone, fill, solve_zone
 from ..mechanics.end_conditions import place_ends
 from ..mechanics.equations_of_motion import forces, node_mass, tangent_band
-from ..mechanics.sheave_contact import reach
+from ..mechanics.sheave_contact import find_contact_range
 from ..runtime.array_layout import FIRST, LAST
 from ..runtime.jit import kernel
+from ..runtime.kernel_arguments import Weights
 from ..runtime.parameter_vector import ALPHA, ELEMENT, J, M, R
 
 TOLERANCE = 1e-8  # m
 ITERATIONS = 12
 SLOW = 0.1  # a correction that shrinks by less than this asks for a new tangent
-CARRIED = 32  # nodes beside the groove that still feel its curvature
-DEEPEST = 12  # halvings of one step
+BESIDE_GROOVE = 32  # nodes beside the groove that still feel its curvature
+MOST_HALVINGS = 12  # of one step
 
-# Entries of `count`: what the run has cost so far, and where a failed step went wrong.
+# Entries of State.counters: what the simulation has cost so far, and where a failed step went wrong.
 STEPS, NEWTON, FACTORED, HALVED, WORST = range(5)
-COUNTS = 5
+COUNTERS = 5
 
 
 @kernel
-def predict(n, p, h, q0, v0, a0, q, v, a):
+def newmark_weights(p, h):
+    """Weights (ck, cc) of stiffness and damping in the tangent of a step of length h."""
+    alpha = p[ALPHA]
+    return Weights((1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h)
+
+
+@kernel
+def predict(n, h, state, motion):
     """Start of the iteration: the acceleration stays what it was."""
+    q0, v0, a0, q, v, a = state.q, state.v, state.a, motion.q, motion.v, motion.a
     for i in range(2 * (n + 1)):
         a[i] = a0[i]
         v[i] = v0[i] + h * a0[i]
@@ -41,17 +50,18 @@ def predict(n, p, h, q0, v0, a0, q, v, a):
 
 
 @kernel
-def carry(n, p, h, q0, v0, a0, q, v, a, touch):
+def advect_acceleration(n, p, h, state, motion, touch):
     """Start of the iteration for the nodes near the sheave, which the rope carries along its own shape.
 
     That shape hardly changes in a step, but a node runs along it by a good part of an element, and its
     acceleration changes from nothing to v^2 / R on the way. So each node starts with the acceleration
     of the place that it comes to.
     """
+    q0, v0, a0, q, v, a = state.q, state.v, state.a, motion.q, motion.v, motion.a
     m, alpha, per_l = n + 1, p[ALPHA], 1.0 / p[ELEMENT]
     beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
-    reach(n, p, q0, q0[n], 0.0, touch)
-    first, last = max(int(touch[FIRST]) - CARRIED, 1), min(int(touch[LAST]) + CARRIED, n - 2)
+    find_contact_range(n, p, q0, q0[n], 0.0, touch)
+    first, last = max(int(touch[FIRST]) - BESIDE_GROOVE, 1), min(int(touch[LAST]) + BESIDE_GROOVE, n - 2)
     for i in range(first, last + 1):
         along = 0.5 * ((q0[i + 1] - q0[i - 1]) * v0[i] + (q0[m + i + 1] - q0[m + i - 1]) * v0[m + i]) * per_l
         place = min(max(i + along * h * per_l, 1.0), n - 2.0)
@@ -79,8 +89,9 @@ def residual(n, p, a, f, f0, r):
 
 
 @kernel
-def correct(n, p, h, r, q, v, a, count):
+def correct(n, p, h, r, motion, counters):
     """Add the correction r of the acceleration; returns the largest change of position [m]."""
+    q, v, a = motion.q, motion.v, motion.a
     m, alpha = n + 1, p[ALPHA]
     beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
     largest = 0.0
@@ -92,58 +103,51 @@ def correct(n, p, h, r, q, v, a, count):
         size = abs(change) if i < m + n else abs(change) * p[R]
         if not size <= largest:
             largest = size
-            count[WORST] = i
+            counters[WORST] = i
     return largest
 
 
 @kernel
-def renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch):
-    """Assemble and factor the tangent of the last evaluation of the forces; r is carried to the zone.
+def factor_tangent(n, t, p, h, motion, work):
+    """Assemble and factor the tangent of the last evaluation of the forces; work.r is eliminated down to the zone.
 
     The sheave's column of the factor keeps which nodes the zone begins and ends with.
     """
-    alpha = p[ALPHA]
-    ck = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h
-    cc = (1.0 - alpha) * (0.5 + alpha) * h
+    A, L, B, touch = work.A, work.L, work.B, work.touch
     first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
-    tangent_band(n, t, p, q, v, w, A, 1.0, ck, cc)
-    factor(n, A, L, r, first, last)
-    fill(n, A, Z, B, first, last)
+    tangent_band(n, t, p, motion, work, 1.0, newmark_weights(p, h))
+    factor(n, A, L, work.r, first, last)
+    fill(n, A, work.Z, B, first, last)
     factor_zone(2 * (last - first + 1), B)
     L[n], L[2 * n + 1] = first, last
 
 
 @kernel
-def attempt(
-    n, t, h, p, path, dt, s, q0, v0, a0, f0, h0, q, v, a, f, h1, w, A, L, B, Z, r, touch, power, count,
-):  # fmt: skip
-    """Try one step of length h that ends at time t; s is that time as a fraction of the path's dt.
-
-    Returns True when Newton's iteration has converged.
-    """
-    alpha = p[ALPHA]
-    ck, cc = (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h
-    predict(n, p, h, q0, v0, a0, q, v, a)
-    carry(n, p, h, q0, v0, a0, q, v, a, touch)
-    place_ends(n, t, p, path, dt, s, q, v, a)
+def newmark_step(n, p, path, step, state, motion, work):
+    """Try one time step from `state`, and set `motion` to what it arrives at; True when Newton's iteration has converged."""
+    f, r, L, touch, counters = work.f, work.r, work.L, work.touch, state.counters
+    t, h, weights = step.t, step.h, newmark_weights(p, step.h)
+    predict(n, h, state, motion)
+    advect_acceleration(n, p, h, state, motion, touch)
+    place_ends(n, t, p, path, step.dt, step.s, motion)
     before, fresh, first, last = 1e300, True, 0, 0
     for _ in range(ITERATIONS):
-        forces(n, t, p, q, v, w, f, touch, h0, h1, power, Z, ck, cc, fresh)
-        residual(n, p, a, f, f0, r)
+        forces(n, t, p, motion, state.history, work, weights, fresh)
+        residual(n, p, motion.a, f, state.f, r)
         if fresh:
-            renew(n, t, p, h, q, v, w, A, L, B, Z, r, touch)
+            factor_tangent(n, t, p, h, motion, work)
             first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
-            count[FACTORED] += 1
+            counters[FACTORED] += 1
         else:
             inwards(n, L, r, first, last)
-        solve_zone(n, B, r, first, last)
+        solve_zone(n, work.B, r, first, last)
         outwards(n, L, r, first, last)
-        change = correct(n, p, h, r, q, v, a, count)
-        count[NEWTON] += 1
+        change = correct(n, p, h, r, motion, counters)
+        counters[NEWTON] += 1
         if not isfinite(change):
             return False
         if change < TOLERANCE:
-            settle_forces(n, p, a, f0, f)
+            balance_forces(n, p, motion.a, state.f, f)
             return True
         fresh = change > SLOW * before
         before = change
@@ -151,7 +155,7 @@ def attempt(
 
 
 @kernel
-def settle_forces(n, p, a, f0, f):
+def balance_forces(n, p, a, f0, f):
     """Forces that balance the accepted accelerations exactly, from the weighted balance of the step.
 
     The ends keep the forces of the last evaluation.

@@ -12,21 +12,24 @@ from ..linalg.bordered_band import factor_zone, fill, solve_zone
 from ..mechanics.equations_of_motion import forces, tangent_band
 from ..runtime.array_layout import COLUMNS, CONTACT, DYY, FIRST, LAST, ROWS
 from ..runtime.jit import kernel
+from ..runtime.kernel_arguments import Weights
+from ..runtime.parameter_vector import ELEMENT
 
-ENOUGH = 1e-11  # m, the last correction
-TRIALS = 400
-LARGEST = 0.25  # of an element: the longest move of one iteration
+TOLERANCE_AT_REST = 1e-11  # m, the last correction
+MOST_ITERATIONS = 400
+LARGEST_MOVE = 0.25  # of an element: the longest move of one iteration
 
 
 @kernel
-def rest(n, p, q, v, w, f, touch, h0, h1, power, A, L, B, Z, r, element):
+def solve_equilibrium(n, p, motion, h0, work):
     """Move q to equilibrium, v staying zero; returns the number of iterations, or -1 where none is found."""
-    m, mass, angle = n + 1, 1.0, q[n + 1 + n]
-    for trial in range(TRIALS):
-        forces(n, 0.0, p, q, v, w, f, touch, h0, h1, power, Z, 1.0, 0.0, True)
+    m, mass, q, f, r, element = n + 1, 1.0, motion.q, work.f, work.r, p[ELEMENT]
+    A, L, B, Z, touch, angle = work.A, work.L, work.B, work.Z, work.touch, q[n + 1 + n]
+    for iteration in range(MOST_ITERATIONS):
+        forces(n, 0.0, p, motion, h0, work, Weights(1.0, 0.0), True)
         first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
-        tangent_band(n, 0.0, p, q, v, w, A, mass, 1.0, 0.0)
-        balance(n, f, r)
+        tangent_band(n, 0.0, p, motion, work, mass, Weights(1.0, 0.0))
+        equilibrium_residual(n, f, r)
         lock_angle(n, A, Z)
         factor(n, A, L, r, first, last)
         fill(n, A, Z, B, first, last)
@@ -39,18 +42,18 @@ def rest(n, p, q, v, w, f, touch, h0, h1, power, A, L, B, Z, r, element):
                 largest = abs(r[i])
         if not isfinite(largest):
             return -1.0
-        scale = min(1.0, LARGEST * element / largest) if largest > 0.0 else 1.0
+        scale = min(1.0, LARGEST_MOVE * element / largest) if largest > 0.0 else 1.0
         for i in range(2 * m):
             q[i] += scale * r[i]
         q[m + n] = angle
-        if largest < ENOUGH:
-            return trial + 1.0
-        mass = relax(mass, largest, element)
+        if largest < TOLERANCE_AT_REST:
+            return iteration + 1.0
+        mass = next_pseudo_mass(mass, largest, element)
     return -1.0
 
 
 @kernel
-def relax(mass, largest, element):
+def next_pseudo_mass(mass, largest, element):
     """The next pseudo-mass: it shrinks fast while moves are small and grows back when they are not."""
     if largest < 1e-3 * element:
         return 0.0
@@ -60,7 +63,7 @@ def relax(mass, largest, element):
 
 
 @kernel
-def balance(n, f, r):
+def equilibrium_residual(n, f, r):
     """Residual of equilibrium: the forces, none at the prescribed ends nor on the sheave's angle."""
     m = n + 1
     for i in range(2 * m):

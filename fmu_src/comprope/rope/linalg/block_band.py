@@ -3,7 +3,7 @@
 Away from the sheave the tangent is symmetric, so nodes are eliminated in 2 x 2 blocks from the car's
 end (left) and from the counterweight's end (right) at once; the two recurrences do not depend on
 each other and overlap in the processor. What is left are the nodes near the sheave, where friction
-makes the tangent unsymmetric and the sheave's height and angle border it: `zone` solves those, and
+makes the tangent unsymmetric and the sheave's height and angle border it: `bordered_band` solves those, and
 the back substitution runs outwards again.
 
 Section layout of the factor L: inverse of the pivot block (3), then the blocks U1 = D^-1 E towards
@@ -27,12 +27,14 @@ def forward(m, L, r, i, j, k):
 
 
 @kernel
-def eliminate(m, A, L, r, i, j, k, ebase, gbase, cross, back):
+def eliminate(m, A, L, r, i, back):
     """Eliminate node i, which couples to nodes j (next) and k (after next), and update their blocks.
 
-    `ebase`, `gbase` are the columns that hold the blocks i-j and i-k, `cross` the one of j-k; with
-    `back` (1 from the right end) these blocks are stored transposed. The right-hand side r follows.
+    `back` is 0 from the left end and 1 from the right end, where the blocks i-j, i-k and j-k are stored transposed in
+    the columns of j and k. The right-hand side r follows.
     """
+    j, k = i + 1 - 2 * back, i + 2 - 4 * back
+    ebase, gbase, cross = i - back, i - 2 * back, i + 1 - 3 * back
     dxx, dxy, dyy = A[DXX * m + i], A[DXY * m + i], A[DYY * m + i]
     one = 1.0 / (dxx * dyy - dxy * dxy)
     ixx, ixy, iyy = dyy * one, -dxy * one, dxx * one
@@ -68,14 +70,12 @@ def factor(n, A, L, r, first, last):
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(both):
-        i = n - 1 - e
-        eliminate(m, A, L, r, e, e + 1, e + 2, e, e, e + 1, 0)
-        eliminate(m, A, L, r, i, i - 1, i - 2, i - 1, i - 2, i - 2, 1)
+        eliminate(m, A, L, r, e, 0)
+        eliminate(m, A, L, r, n - 1 - e, 1)
     for e in range(both, first):
-        eliminate(m, A, L, r, e, e + 1, e + 2, e, e, e + 1, 0)
+        eliminate(m, A, L, r, e, 0)
     for e in range(both, right):
-        i = n - 1 - e
-        eliminate(m, A, L, r, i, i - 1, i - 2, i - 1, i - 2, i - 2, 1)
+        eliminate(m, A, L, r, n - 1 - e, 1)
 
 
 @kernel

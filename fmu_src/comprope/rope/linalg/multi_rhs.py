@@ -1,4 +1,4 @@
-"""Substitution for many right-hand sides at once, with the factor that `band` and `zone` hold.
+"""Substitution for many right-hand sides at once, with the factor that `block_band` and `bordered_band` hold.
 
 A recurrence makes one right-hand side wait for itself at every node; LANES of them share each
 instruction, and the blocks of LANES fill each other's waiting. Number (node i, component c) of block k
@@ -6,43 +6,43 @@ sits at (k 2 m + 2 i + c) LANES of R and has a lane for each of its right-hand s
 """
 
 from ..runtime.jit import kernel
-from ..runtime.simd import LANES, put, take
+from ..runtime.simd import LANES, load, store
 from .bordered_band import ROW, WIDTH
 
 
 @kernel
 def forward_lanes(m, L, R, begin, end, i, j, k):
-    """What `band.forward` does, for every lane."""
+    """What `block_band.forward` does, for every lane."""
     jxx, jyx, jxy, jyy = L[3 * m + i], L[4 * m + i], L[5 * m + i], L[6 * m + i]
     kxx, kyx, kxy, kyy = L[7 * m + i], L[8 * m + i], L[9 * m + i], L[10 * m + i]
     for block in range(begin, end):
         base = 2 * LANES * m * block
         to_i, to_j, to_k = base + 2 * LANES * i, base + 2 * LANES * j, base + 2 * LANES * k
-        x, y = take(R, to_i), take(R, to_i + LANES)
-        put(R, to_j, take(R, to_j) - jxx * x - jxy * y)
-        put(R, to_j + LANES, take(R, to_j + LANES) - jyx * x - jyy * y)
-        put(R, to_k, take(R, to_k) - kxx * x - kxy * y)
-        put(R, to_k + LANES, take(R, to_k + LANES) - kyx * x - kyy * y)
+        x, y = load(R, to_i), load(R, to_i + LANES)
+        store(R, to_j, load(R, to_j) - jxx * x - jxy * y)
+        store(R, to_j + LANES, load(R, to_j + LANES) - jyx * x - jyy * y)
+        store(R, to_k, load(R, to_k) - kxx * x - kxy * y)
+        store(R, to_k + LANES, load(R, to_k + LANES) - kyx * x - kyy * y)
 
 
 @kernel
 def backward_lanes(m, L, R, begin, end, i, j, k):
-    """What `band.backward` does, for every lane."""
+    """What `block_band.backward` does, for every lane."""
     dxx, dxy, dyy = L[i], L[m + i], L[2 * m + i]
     jxx, jxy, jyx, jyy = L[3 * m + i], L[4 * m + i], L[5 * m + i], L[6 * m + i]
     kxx, kxy, kyx, kyy = L[7 * m + i], L[8 * m + i], L[9 * m + i], L[10 * m + i]
     for block in range(begin, end):
         base = 2 * LANES * m * block
         to_i, to_j, to_k = base + 2 * LANES * i, base + 2 * LANES * j, base + 2 * LANES * k
-        x, y, jx, jy = take(R, to_i), take(R, to_i + LANES), take(R, to_j), take(R, to_j + LANES)
-        kx, ky = take(R, to_k), take(R, to_k + LANES)
-        put(R, to_i, dxx * x + dxy * y - kxx * kx - kxy * ky - jxx * jx - jxy * jy)
-        put(R, to_i + LANES, dxy * x + dyy * y - kyx * kx - kyy * ky - jyx * jx - jyy * jy)
+        x, y, jx, jy = load(R, to_i), load(R, to_i + LANES), load(R, to_j), load(R, to_j + LANES)
+        kx, ky = load(R, to_k), load(R, to_k + LANES)
+        store(R, to_i, dxx * x + dxy * y - kxx * kx - kxy * ky - jxx * jx - jxy * jy)
+        store(R, to_i + LANES, dxy * x + dyy * y - kyx * kx - kyy * ky - jyx * jx - jyy * jy)
 
 
 @kernel
 def inwards_lanes(n, L, R, begin, end, first, last):
-    """What `band.inwards` does, for every lane."""
+    """What `block_band.inwards` does, for every lane."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(both):
@@ -56,7 +56,7 @@ def inwards_lanes(n, L, R, begin, end, first, last):
 
 @kernel
 def outwards_lanes(n, L, R, begin, end, first, last):
-    """What `band.outwards` does, for every lane."""
+    """What `block_band.outwards` does, for every lane."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(right - 1, both - 1, -1):
@@ -70,27 +70,27 @@ def outwards_lanes(n, L, R, begin, end, first, last):
 
 @kernel
 def solve_zone_lanes(n, B, R, base, first, last):
-    """What `zone.solve_zone` does, for every lane of a block; rows of the zone follow each other in R."""
+    """What `bordered_band.solve_zone` does, for every lane of a block; rows of the zone follow each other in R."""
     size, row, sheave = 2 * (last - first + 1), base + 2 * LANES * first, base + 2 * LANES * n
-    height, turn = take(R, sheave), take(R, sheave + LANES)
+    height, turn = load(R, sheave), load(R, sheave + LANES)
     for k in range(size):
-        x = take(R, row + LANES * k)
+        x = load(R, row + LANES * k)
         for j in range(k + 1, min(k + WIDTH + 1, size)):
-            put(R, row + LANES * j, take(R, row + LANES * j) - B[ROW * j + WIDTH - (j - k)] * x)
+            store(R, row + LANES * j, load(R, row + LANES * j) - B[ROW * j + WIDTH - (j - k)] * x)
         height = height - B[ROW * size + 2 * k] * x
         turn = turn - B[ROW * size + 2 * k + 1] * x
     corner = (ROW + 2) * size
     a, b, c, d = B[corner], B[corner + 1], B[corner + 2], B[corner + 3]
     one = 1.0 / (a * d - b * c)
     height, turn = (d * one) * height - (b * one) * turn, (a * one) * turn - (c * one) * height
-    put(R, sheave, height)
-    put(R, sheave + LANES, turn)
+    store(R, sheave, height)
+    store(R, sheave + LANES, turn)
     for k in range(size - 1, -1, -1):
         at = ROW * k + WIDTH
-        x = take(R, row + LANES * k) - B[at + WIDTH + 1] * height - B[at + WIDTH + 2] * turn
+        x = load(R, row + LANES * k) - B[at + WIDTH + 1] * height - B[at + WIDTH + 2] * turn
         for c in range(1, min(WIDTH + 1, size - k)):
-            x = x - B[at + c] * take(R, row + LANES * (k + c))
-        put(R, row + LANES * k, (1.0 / B[at]) * x)
+            x = x - B[at + c] * load(R, row + LANES * (k + c))
+        store(R, row + LANES * k, (1.0 / B[at]) * x)
 
 
 @kernel

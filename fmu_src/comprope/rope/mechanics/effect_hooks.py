@@ -1,6 +1,6 @@
 """Where effects act: the functions that the kernels call, here those of a model without effects.
 
-`compose` binds the kernels to functions of the same names that run through the effects of a model.
+`compiler` replaces them by functions of the same names that run through the effects of a model.
 """
 
 from ..runtime.jit import kernel
@@ -17,8 +17,8 @@ def all_forces(n, t, p, q, v, w, f, power):
 
 
 @kernel
-def all_tangents(n, t, p, q, v, w, A, ck, cc):
-    """Subtract ck df/dq + cc df/dv of those forces from A."""
+def all_tangents(n, t, p, q, v, w, A, weights):
+    """Subtract ck df/dq + cc df/dv of those forces from A, where ck, cc = weights."""
 
 
 @kernel

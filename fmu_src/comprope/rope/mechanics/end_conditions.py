@@ -1,4 +1,4 @@
-"""The way the rope's ends move within one communication step.
+"""Prescribed motion of the rope's ends within one communication step.
 
 Each end follows a polynomial of fifth order from the position, velocity and acceleration it has to
 those it shall have, so that inputs that arrive once per communication step never make it jump.
@@ -6,6 +6,7 @@ A path of one coordinate is six numbers: position, velocity and acceleration at 
 """
 
 from ..runtime.jit import kernel
+from ..runtime.kernel_arguments import Ends, Motion, RopeData, State
 from .effect_hooks import all_ends
 
 PATHS = 4  # car x, car y, counterweight x, counterweight y
@@ -32,9 +33,15 @@ def follow(path, k, dt, s):
 
 
 @kernel
-def place_ends(n, t, p, path, dt, s, q, v, a):
+def place_ends(n, t, p, path, dt, s, motion):
     """Put both ends where their paths have them at fraction s, then let effects move them sideways."""
-    m = n + 1
+    m, q, v, a = n + 1, motion.q, motion.v, motion.a
     for k, i in ((0, 0), (1, m), (2, n - 1), (3, m + n - 1)):
         q[i], v[i], a[i] = follow(path, k, dt, s)
     all_ends(n, t, p, q, v, a)
+
+
+@kernel
+def place_ends_of_state(rope: RopeData, ends: Ends, state: State, t: float, dt: float, s: float) -> None:
+    """The same for the accepted state."""
+    place_ends(rope.n, t, rope.p, ends.path, dt, s, Motion(state.q, state.v, state.a))

@@ -1,4 +1,4 @@
-"""The energy ledger: what is stored, what the ends and effects put in, what each damping takes out.
+"""Energy balance: what is stored, work of the ends and of effects, and what each damping takes out.
 
     residual = stored energy - its value at the start - work of ends and effects + losses
 
@@ -20,7 +20,7 @@ END_FORCES = 4  # at the start of the array of powers, before losses and effects
 
 
 @kernel
-def store(n, p, q, v, w, touch, E):
+def stored_energies(n, p, q, v, w, touch, E):
     """Set the stored energies in E [J]: kinetic, gravity, tension, bending, contact, sheave."""
     m, l, kinetic, low, strain, bent = n + 1, p[ELEMENT], 0.0, 0.0, 0.0, 0.0
     for i in range(n):
@@ -41,8 +41,8 @@ def store(n, p, q, v, w, touch, E):
 
 
 @kernel
-def losses(n, p, v, w, touch, power, effects, P):
-    """Set P: forces of the holders on the ends come first, then the losses and effects' powers [W]."""
+def powers(n, p, v, w, touch, power, effects, P):
+    """Set P: forces that hold the ends come first, then the losses and effects' powers [W]."""
     m, l, axial, bending, drag = n + 1, p[ELEMENT], 0.0, 0.0, 0.0
     for e in range(n - 1):
         rate = w[TX * m + e] * (v[e + 1] - v[e]) + w[TY * m + e] * (v[m + e + 1] - v[m + e])
@@ -61,7 +61,7 @@ def losses(n, p, v, w, touch, power, effects, P):
 
 @kernel
 def hold_forces(n, p, a, f, P):
-    """Set the first entries of P to the forces [N] that the holders of the ends exert on them."""
+    """Set the first entries of P to the forces [N] that hold the ends."""
     m, half = n + 1, 0.5 * p[RHO] * p[ELEMENT]
     P[0] = half * a[0] - f[0]
     P[1] = half * a[m] - f[m]
@@ -70,21 +70,23 @@ def hold_forces(n, p, a, f, P):
 
 
 @kernel
-def open_ledger(n, p, q, v, a, f, w, touch, power, effects, P, E, start):
-    """Set stored energies and powers at the start; start[0] becomes the sum of what is stored."""
-    store(n, p, q, v, w, touch, E)
-    losses(n, p, v, w, touch, power, effects, P)
-    hold_forces(n, p, a, f, P)
-    start[0] = E[KINETIC] + E[GRAVITY] + E[STRAIN] + E[BENT] + E[CONTACT_ENERGY] + E[SHEAVE]
+def begin_balance(rope, state, work):
+    """Set stored energies and powers of a state at the start, where the forces are work.f; state.start becomes what is stored."""
+    n, p, E = rope.n, rope.p, state.energy
+    stored_energies(n, p, state.q, state.v, work.w, work.touch, E)
+    powers(n, p, state.v, work.w, work.touch, work.power, rope.effects, state.powers)
+    hold_forces(n, p, state.a, work.f, state.powers)
+    state.start[0] = E[KINETIC] + E[GRAVITY] + E[STRAIN] + E[BENT] + E[CONTACT_ENERGY] + E[SHEAVE]
 
 
 @kernel
-def tally(n, p, h, q0, q, v, a, f, w, touch, power, effects, P0, P, E):
-    """Bring the ledger E up to date after an accepted step of length h; P0 takes over P."""
-    m = n + 1
-    store(n, p, q, v, w, touch, E)
-    losses(n, p, v, w, touch, power, effects, P)
-    hold_forces(n, p, a, f, P)
+def update_balance(rope, h, state, motion, work):
+    """Bring the energy balance up to date with a step of length h that goes from `state` to `motion`."""
+    n, p, effects, P0, P, E = rope.n, rope.p, rope.effects, state.powers, work.powers, state.energy
+    m, q0, q = n + 1, state.q, motion.q
+    stored_energies(n, p, q, motion.v, work.w, work.touch, E)
+    powers(n, p, motion.v, work.w, work.touch, work.power, effects, P)
+    hold_forces(n, p, motion.a, work.f, P)
     moved = 0.5 * (P0[0] + P[0]) * (q[0] - q0[0]) + 0.5 * (P0[1] + P[1]) * (q[m] - q0[m])
     moved += 0.5 * (P0[2] + P[2]) * (q[n - 1] - q0[n - 1])
     moved += 0.5 * (P0[3] + P[3]) * (q[m + n - 1] - q0[m + n - 1])

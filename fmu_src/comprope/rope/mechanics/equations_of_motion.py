@@ -1,10 +1,11 @@
 """Eq. (1) and (2): the sum of all forces on nodes and sheave, and its tangent.
 
-Effects act through the functions of `hooks`.
+Effects act through the functions of `effect_hooks`.
 """
 
 from ..runtime.array_layout import DXX, DXY, DYY
 from ..runtime.jit import kernel
+from ..runtime.kernel_arguments import Motion, RopeData, State, Weights, Workspace
 from ..runtime.parameter_vector import ELEMENT, RHO, G, J, M
 from .effect_hooks import all_forces, all_moments, all_tangents
 from .internal_forces import assemble, bend, bending_stiffness, hold_ends, segment_blocks, stretch, sum_forces
@@ -12,30 +13,40 @@ from .sheave_contact import add_contact
 
 
 @kernel
-def forces(n, t, p, q, v, w, f, touch, h0, h1, power, Z, ck, cc, tangent):
-    """Set f to the right-hand sides of eq. (1) and (2) at (q, v); with `tangent` set also Z."""
-    m = n + 1
+def forces(n, t, p, motion, h0, work, weights, tangent):
+    """Set work.f to the right-hand sides of eq. (1) and (2) at (q, v); with `tangent` set also the contact's tangent.
+
+    h0 is the history of effects before the step; what it becomes goes to work.history.
+    """
+    m, q, v, w, f = n + 1, motion.q, motion.v, work.w, work.f
     stretch(n, p, q, v, w)
     bend(n, p, w)
-    all_moments(n, p, w, h0, h1, power)
+    all_moments(n, p, w, h0, work.history, work.power)
     sum_forces(n, p, v, w, f)
     f[n] = p[M] * p[G]
     f[m + n] = 0.0
-    add_contact(n, p, q, v, f, touch, Z, ck, cc, tangent)
-    all_forces(n, t, p, q, v, w, f, power)
+    add_contact(n, p, motion, work, weights, tangent)
+    all_forces(n, t, p, q, v, w, f, work.power)
 
 
 @kernel
-def tangent_band(n, t, p, q, v, w, A, mass, ck, cc):
-    """Set A to mass M - ck df/dq - cc df/dv without contact; `forces` must have run at (q, v)."""
-    m = n + 1
+def forces_of_state(rope: RopeData, state: State, work: Workspace, t: float, weights: Weights, tangent: bool) -> None:
+    """The same in the accepted state."""
+    forces(rope.n, t, rope.p, Motion(state.q, state.v, state.a), state.history, work, weights, tangent)
+
+
+@kernel
+def tangent_band(n, t, p, motion, work, mass, weights):
+    """Set work.A to mass M - ck df/dq - cc df/dv without contact; `forces` must have run at (q, v)."""
+    m, w, A = n + 1, work.w, work.A
+    ck, cc = weights
     segment_blocks(n, p, w, ck, cc)
     bending_stiffness(n, p, w, ck, cc)
     assemble(n, p, w, A, mass, cc)
     A[DXX * m + n] = mass * p[M]
     A[DXY * m + n] = 0.0
     A[DYY * m + n] = mass * p[J]
-    all_tangents(n, t, p, q, v, w, A, ck, cc)
+    all_tangents(n, t, p, motion.q, motion.v, w, A, weights)
     hold_ends(n, A)
 
 

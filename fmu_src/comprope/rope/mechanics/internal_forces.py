@@ -9,7 +9,7 @@ their damping), gravity, and an external damping proportional to velocity (D).
 Each loop writes one quantity, so that the compiler can use the processor's vector units.
 
 Read as point values r of a curve r + l^2/24 r'', tension and bending of the polygon agree with the
-continuous rope up to fourth order; the contact is placed to match (see `contact`).
+continuous rope up to fourth order; the contact is placed to match (see `sheave_contact`).
 
 The tangent leaves out how the damping forces turn with the rope: less than 3e-3 of the stiffness, which
 Newton's iteration does not notice.
@@ -143,24 +143,24 @@ def assemble(n, p, w, A, mass, cc):
     Node i's bending has the gradient (w_-, -(w_- + w_+), w_+) over its three nodes, where w is the
     gradient of a segment's angle. Rows of the prescribed ends stay the identity.
     """
-    m = n + 1
     inertia = (mass * p[RHO] + cc * p[CE]) * p[ELEMENT]
-    sum_diagonal(n, m, w, A, DXX, WX, WX, SXX, inertia)
-    sum_diagonal(n, m, w, A, DXY, WX, WY, SXY, 0.0)
-    sum_diagonal(n, m, w, A, DYY, WY, WY, SYY, inertia)
-    sum_next(n, m, w, A, EXX, WX, WX, SXX)
-    sum_next(n, m, w, A, EXY, WX, WY, SXY)
-    sum_next(n, m, w, A, EYX, WY, WX, SXY)
-    sum_next(n, m, w, A, EYY, WY, WY, SYY)
-    sum_after(n, m, w, A, GXX, WX, WX)
-    sum_after(n, m, w, A, GXY, WX, WY)
-    sum_after(n, m, w, A, GYX, WY, WX)
-    sum_after(n, m, w, A, GYY, WY, WY)
+    sum_diagonal(n, w, A, DXX, WX, WX, SXX, inertia)
+    sum_diagonal(n, w, A, DXY, WX, WY, SXY, 0.0)
+    sum_diagonal(n, w, A, DYY, WY, WY, SYY, inertia)
+    sum_next(n, w, A, EXX, WX, WX, SXX)
+    sum_next(n, w, A, EXY, WX, WY, SXY)
+    sum_next(n, w, A, EYX, WY, WX, SXY)
+    sum_next(n, w, A, EYY, WY, WY, SYY)
+    sum_after(n, w, A, GXX, WX, WX)
+    sum_after(n, w, A, GXY, WX, WY)
+    sum_after(n, w, A, GYX, WY, WX)
+    sum_after(n, w, A, GYY, WY, WY)
 
 
 @kernel
-def sum_diagonal(n, m, w, A, to, u, v, S, inertia):
+def sum_diagonal(n, w, A, to, u, v, S, inertia):
     """One entry of the blocks of nodes with themselves: u and v are the sections of its row's and column's w."""
+    m = n + 1
     k, u, v, S, to = BENDING * m, u * m, v * m, S * m, to * m
     for i in range(1, n - 1):
         before, after = w[k + i - 1] * w[u + i - 1] * w[v + i - 1], w[k + i + 1] * w[u + i] * w[v + i]
@@ -169,8 +169,9 @@ def sum_diagonal(n, m, w, A, to, u, v, S, inertia):
 
 
 @kernel
-def sum_next(n, m, w, A, to, u, v, S):
+def sum_next(n, w, A, to, u, v, S):
     """One entry of the blocks of nodes with the next."""
+    m = n + 1
     k, u, v, S, to = BENDING * m, u * m, v * m, S * m, to * m
     for i in range(1, n - 2):
         own = w[k + i] * (w[u + i - 1] + w[u + i]) * w[v + i]
@@ -178,8 +179,9 @@ def sum_next(n, m, w, A, to, u, v, S):
 
 
 @kernel
-def sum_after(n, m, w, A, to, u, v):
+def sum_after(n, w, A, to, u, v):
     """One entry of the blocks of nodes with the one after the next."""
+    m = n + 1
     k, u, v, to = BENDING * m, u * m, v * m, to * m
     for i in range(1, n - 2):
         A[to + i] = w[k + i + 1] * w[u + i] * w[v + i + 1]

@@ -103,5 +103,5 @@ def _store_in_python(R, i, x):
     R[i : i + LANES] = x
 
 
-take: Any = _load_in_python if PURE else _load
-put: Any = _store_in_python if PURE else _store
+load: Any = _load_in_python if PURE else _load
+store: Any = _store_in_python if PURE else _store

@@ -1,4 +1,4 @@
-"""What a kernel tells when it must refuse or give up: a number for the kind, numbers to fill in, and here the words.
+"""Status of a kernel that refuses or gives up: its kind, the message to it, and the values that the message takes.
 
 The texts have C's and Python's common form of `%`, so that a program without Python fills in the same.
 """
@@ -7,18 +7,18 @@ from collections.abc import Iterable
 
 from ...errors import CompropeError, InputError, SimulationError
 
-FINE, OUT_OF_REACH, NO_REST, LOST, LOST_AT_SHEAVE, TOO_LONG, TOO_COARSE = range(7)
-TOLD = 6  # numbers at most
+SUCCESS, OUT_OF_REACH, NO_EQUILIBRIUM, LOST, LOST_AT_SHEAVE, TOO_MANY_STEPS, TOO_COARSE = range(7)
+MESSAGE_VALUES = 6  # at most
 
-# For each kind: whether it is the user's values or the computation that went wrong, the text, how many numbers it takes.
-WORDS: dict[int, tuple[type[CompropeError], str, int]] = {
+# For each kind: the error (the user's values, or the computation), the text, how many values it takes.
+MESSAGES: dict[int, tuple[type[CompropeError], str, int]] = {
     OUT_OF_REACH: (
         InputError,
         "car_position = %g m with counterweight_position = %g m at t = %g s: the rope of %g m would hang the axle at %g m; "
         "both ends at least sheave.radius = %g m above it are accepted",
         6,
     ),
-    NO_REST: (
+    NO_EQUILIBRIUM: (
         SimulationError,
         "no shape at rest was found with car end at %g m, counterweight end at %g m and sheave.mass = %g kg",
         3,
@@ -34,7 +34,7 @@ WORDS: dict[int, tuple[type[CompropeError], str, int]] = {
         "the time step at t = %.6f s did not converge even when halved to %.1e s; worst at the sheave, height %.3f m",
         3,
     ),
-    TOO_LONG: (
+    TOO_MANY_STEPS: (
         InputError,
         "communication step = %g s from t = %g s with rope ends of up to %g m/s: more than %g time steps, which is not accepted",
         4,
@@ -47,8 +47,8 @@ WORDS: dict[int, tuple[type[CompropeError], str, int]] = {
 }
 
 
-def require_fine(status: float, told: Iterable[float]) -> None:
-    """Raise what a kernel's status other than FINE stands for, with the numbers it told."""
-    if status != FINE:
-        error, text, count = WORDS[int(status)]
-        raise error(text % tuple(list(told)[:count]))
+def require_success(status: float, values: Iterable[float]) -> None:
+    """Raise the error that a kernel's status other than SUCCESS stands for, its message with these values."""
+    if status != SUCCESS:
+        error, text, count = MESSAGES[int(status)]
+        raise error(text % tuple(list(values)[:count]))

@@ -6,31 +6,44 @@ length, itself a difference of positions of tens of metres; so segments are move
 the difference keeps its figures however small it is.
 """
 
+from typing import NamedTuple
+
 from ..mechanics.effect_hooks import all_forces, all_moments
 from ..mechanics.internal_forces import bend
 from ..runtime.array_layout import FX, INVERSE, MOMENT, SPIN, TENSION, TX, TY
 from ..runtime.jit import kernel
+from ..runtime.kernel_arguments import Array, Motion
 from ..runtime.parameter_vector import CA, EA, ELEMENT, R
 from ..runtime.simd import LANES
-from .directions import entry, gauge, shift
+from .directions import difference_step, first_entry, shift_parameters
 
-# What effects do along a direction, beside rope and contact: nothing; begin with it; change, as the model has some;
-# change, and their history with them.
-BY_HAND, BEGUN, DIFFERENCED, CHANGED = range(4)
+# How effects take part along a direction, beside rope and contact: not at all; effects begin with the direction; effects
+# of the model change; they change, and so does their history.
+NO_EFFECTS, NEW_EFFECTS, CHANGED_EFFECTS, CHANGED_HISTORY = range(4)
+
+
+class EffectForces(NamedTuple):
+    """What the evaluation of effects alone works with: it sets f [N], h1 and power [W]."""
+
+    w: Array
+    f: Array
+    h0: Array  # history before the step
+    h1: Array  # history after it
+    power: Array
 
 
 @kernel
-def effect_forces(n, t, p1, q, v, w1, w, f, hi, hd, power):
-    """Set f to the forces of effects alone, with parameters p1 in the state (q, v) of w1; w is of the present state.
+def effect_forces(n, t, p, motion, w, result):
+    """Set the forces of effects alone in a state whose segments and nodes are in result.w; w is that of the present state.
 
     Moments M of theirs act as the shear Q = (M_e - M_e+1) / L of each segment as it is at present: how a segment that
-    turns carries its shear along is the rope's own part (see `slope`). w1 loses its own moments, and what its section FX
-    held to those shears.
+    turns carries its shear along is the rope's own part (see `internal_forces`). result.w loses its own moments, and what
+    its section FX held to those shears.
     """
-    m = n + 1
+    m, w1, f = n + 1, result.w, result.f
     for i in range(n):
         w1[MOMENT * m + i] = 0.0
-    all_moments(n, p1, w1, hi, hd, power)
+    all_moments(n, p, w1, result.h0, result.h1, result.power)
     for e in range(n - 1):
         w1[FX * m + e] = (w1[MOMENT * m + e] - w1[MOMENT * m + e + 1]) * w[INVERSE * m + e]
     f[0], f[m] = -w1[FX * m] * w[TY * m], w1[FX * m] * w[TX * m]
@@ -40,21 +53,28 @@ def effect_forces(n, t, p1, q, v, w1, w, f, hi, hd, power):
         f[m + i] = w1[FX * m + i] * w[TX * m + i] - w1[FX * m + i - 1] * w[TX * m + i - 1]
     f[n - 1], f[m + n - 1] = w1[FX * m + n - 2] * w[TY * m + n - 2], -w1[FX * m + n - 2] * w[TX * m + n - 2]
     f[n], f[m + n] = 0.0, 0.0
-    all_forces(n, t, p1, q, v, w1, f, power)
+    all_forces(n, t, p, motion.q, motion.v, w1, f, result.power)
 
 
 @kernel
-def add_lane(n, factor, f, at, D):
-    """Add `factor` times the forces f to the direction whose entries of D begin at `at`."""
+def present_effect_forces(rope, t, state, work, directions):
+    """Set directions.work.f1 to the forces of effects in the present state, and work.history to what becomes of theirs."""
+    own = EffectForces(work.w, directions.work.f1, directions.work.history_before, work.history, work.power)
+    effect_forces(rope.n, t, rope.p, Motion(state.q, state.v, state.a), work.w, own)
+
+
+@kernel
+def add_lane(n, factor, f, b, D):
+    """Add `factor` times the forces f to the direction whose entries of D begin at b."""
     m = n + 1
     for i in range(m):
-        D[at + 2 * LANES * i] += factor * f[i]
-        D[at + (2 * i + 1) * LANES] += factor * f[m + i]
+        D[b + 2 * LANES * i] += factor * f[i]
+        D[b + (2 * i + 1) * LANES] += factor * f[m + i]
 
 
 @kernel
-def stretch_on(n, p, l0, w0, e0, moves, v, w):
-    """What `elastica.stretch` gives after small moves, to first order; before them w0 and e0 held, and elements of length l0."""
+def stretch_by_moves(n, p, l0, w0, e0, moves, v, w):
+    """What `internal_forces.stretch` gives after small moves, to first order, from w0, e0 and elements of length l0."""
     m, l = n + 1, p[ELEMENT]
     longer, per_l = l - l0, 1.0 / l
     for e in range(n - 1):
@@ -71,72 +91,65 @@ def stretch_on(n, p, l0, w0, e0, moves, v, w):
 
 
 @kernel
-def move_node(m, i, e, at, h, q0, v0, dq, dv, da, moves, q, v):
-    """Set q and v of node i to where they are a step e along the direction whose entries begin at `at`, h ahead."""
-    for c in range(2):
-        k, j = at + (2 * i + c) * LANES, c * m + i
-        moves[j] = e * (dq[k] + h * (dv[k] + 0.5 * h * da[k]))
-        q[j], v[j] = q0[j] + moves[j], v0[j] + e * (dv[k] + h * da[k])
+def move_nodes(m, k, e, h, state, motion, directions):
+    """Set `motion` to positions and velocities a step e along direction k, predicted h ahead."""
+    b, dq, dv, da, moves = first_entry(m, k), directions.dq, directions.dv, directions.da, directions.work.moves
+    for i in range(m):
+        for c in range(2):
+            entry, j = b + (2 * i + c) * LANES, c * m + i
+            moves[j] = e * (dq[entry] + h * (dv[entry] + 0.5 * h * da[entry]))
+            motion.q[j], motion.v[j] = state.q[j] + moves[j], state.v[j] + e * (dv[entry] + h * da[entry])
 
 
 @kernel
-def effects_on(n, t, p1, l0, w, e0, q0, v0, moves, q, v, w1, e, at, h, dq, dv, da, f, hi, hd, power):
-    """Set f to the forces of effects a step e along a direction, h ahead of (dq, dv, da), with parameters p1."""
-    for i in range(n + 1):
-        move_node(n + 1, i, e, at, h, q0, v0, dq, dv, da, moves, q, v)
-    stretch_on(n, p1, l0, w, e0, moves, v, w1)
-    bend(n, p1, w1)
-    effect_forces(n, t, p1, q, v, w1, w, f, hi, hd, power)
-
-
-@kernel
-def changing(directions, way):
+def any_changed_effects(directions):
     """Whether effects of the model change along some direction."""
     found = False
-    for k in range(directions):
-        found = found or way[k] >= DIFFERENCED
+    for k in range(directions.number):
+        found = found or directions.effects_mode[k] >= CHANGED_EFFECTS
     return found
 
 
 @kernel
-def recall(state_size, k, e, own, h0, dh, hi):
-    """Set hi to the history with which direction k is evaluated: the rope's own, changed, or that of effects that begin."""
-    for i in range(state_size):
-        hi[i] = dh[state_size * k + i] if own[k] != 0.0 else h0[i] + e * dh[state_size * k + i]
+def set_history(size, k, e, directions):
+    """Set the history with which direction k is evaluated: the rope's own, changed, or that of effects that begin."""
+    h0, dh, target = directions.work.history_before, directions.dh, directions.work.history_in
+    for i in range(size):
+        change = dh[size * k + i]
+        target[i] = change if directions.new_history[k] != 0.0 else h0[i] + e * change
 
 
 @kernel
-def keep_history(state_size, k, e, own, hb, hd, dh):
-    """Keep direction k's history hd of a step in which the rope's own became hb."""
-    for i in range(state_size):
-        dh[state_size * k + i] = hd[i] if own[k] != 0.0 else (hd[i] - hb[i]) / e
+def keep_history(size, k, e, own, directions):
+    """Keep direction k's history of a step in which the rope's own history became `own`."""
+    dh, found = directions.dh, directions.work.history_out
+    for i in range(size):
+        dh[size * k + i] = found[i] if directions.new_history[k] != 0.0 else (found[i] - own[i]) / e
 
 
 @kernel
-def effects_along(
-    n, t, k, h, state_size, parameters, p, q0, v0, h0, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1, moves, q, v,
-    hi, hd, w1, f, power,
-):  # fmt: skip
-    """Set f to the forces of effects a step along direction k, hd to their history there; returns that step."""
-    b = entry(n + 1, k)
-    e = gauge(n, b, p[R], limit[k], dq, dv)
-    shift(parameters, k, e, at, toward, p1)
-    recall(state_size, k, e, own, h0, dh, hi)
-    if way[k] == BEGUN:
-        effect_forces(n, t, p1, q0, v0, w, w, f, hi, hd, power)
+def effects_along(rope, t, k, h, state, motion, work, directions):
+    """Set work.f to the forces of effects a step along direction k, predicted h ahead, and their history; returns that step."""
+    n, p, beside = rope.n, rope.p, directions.work
+    e = difference_step(n, p[R], directions, k)
+    shift_parameters(directions, k, e)
+    set_history(rope.history_size, k, e, directions)
+    if directions.effects_mode[k] == NEW_EFFECTS:
+        found = EffectForces(work.w, work.f, beside.history_in, beside.history_out, work.power)
+        effect_forces(n, t, beside.p1, Motion(state.q, state.v, state.a), work.w, found)
     else:
-        effects_on(n, t, p1, p[ELEMENT], w, e0, q0, v0, moves, q, v, w1, e, b, h, dq, dv, da, f, hi, hd, power)
+        move_nodes(n + 1, k, e, h, state, motion, directions)
+        stretch_by_moves(n, beside.p1, p[ELEMENT], work.w, beside.elongations, beside.moves, motion.v, beside.w1)
+        bend(n, beside.p1, beside.w1)
+        found = EffectForces(beside.w1, work.f, beside.history_in, beside.history_out, work.power)
+        effect_forces(n, t, beside.p1, motion, work.w, found)
     return e
 
 
 @kernel
-def histories(
-    n, t, state_size, directions, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv, da, dh, p1, moves, q, v,
-    hi, hb, hd, w1, f, power,
-):  # fmt: skip
+def advance_histories(rope, t, state, motion, work, directions):
     """Keep the histories that changed over a step, as the state it reached makes them."""
-    for k in range(directions):
-        if way[k] == CHANGED:
-            e = effects_along(n, t, k, 0.0, state_size, parameters, p, q0, v0, hp, w, e0, at, toward, limit, way, own, dq, dv,
-                              da, dh, p1, moves, q, v, hi, hd, w1, f, power)  # fmt: skip
-            keep_history(state_size, k, e, own, hb, hd, dh)
+    for k in range(directions.number):
+        if directions.effects_mode[k] == CHANGED_HISTORY:
+            e = effects_along(rope, t, k, 0.0, state, motion, work, directions)
+            keep_history(rope.history_size, k, e, work.history, directions)

@@ -1,14 +1,15 @@
-"""How the shape at rest and what sensors see answer the parameters: `statics` and `sensors`, differentiated."""
+"""Directional derivative of what sensors read: `mechanics.sensors`, differentiated by hand."""
 
-from ..mechanics.sensors import crossing, sight
+from ..mechanics.sensors import crossing, read_sensor
 from ..runtime.jit import kernel
+from ..runtime.kernel_arguments import Directions, Outputs, RopeData, State
 from ..runtime.parameter_vector import R
 from ..runtime.simd import LANES
 
 
 @kernel
-def seen_node(n, q, side, x):
-    """The lower node of the element that `sensors.sight` sees at depth x on a side; -1 - i where it shows node i instead."""
+def sensed_node(n, q, side, x):
+    """The lower node of the element that `read_sensor` reads at depth x on a side; -1 - i where it reads node i instead."""
     end = 0 if side < 0 else n - 1
     if x < q[end]:
         return -1 - end
@@ -21,15 +22,15 @@ def seen_node(n, q, side, x):
 
 
 @kernel
-def smooth_slope(values, base, i, s):
-    """Derivative of `sensors.smooth` by s."""
+def catmull_rom_slope(values, base, i, s):
+    """Derivative of `catmull_rom` by s."""
     a, b, c, d = values[base + i - 1], values[base + i], values[base + i + 1], values[base + i + 2]
     return 0.5 * (c - a + s * (2.0 * (2.0 * a - 5.0 * b + 4.0 * c - d) + 3.0 * s * (3.0 * (b - c) + d - a)))
 
 
 @kernel
-def weights(s):
-    """What `sensors.smooth` makes of its four nodes, as weights."""
+def catmull_rom_weights(s):
+    """Weights of the four nodes in `catmull_rom`."""
     return (
         0.5 * s * (-1.0 + s * (2.0 - s)),
         1.0 + 0.5 * s * s * (3.0 * s - 5.0),
@@ -39,30 +40,31 @@ def weights(s):
 
 
 @kernel
-def look(n, directions, sensors, parameters, p, toward, q0, dq, sides, depths, seen, glances):
-    """Set row j of glances to what sensor j sees: outward displacement, 1 if the rope is there, derivatives along all directions.
+def read_sensors_along(rope: RopeData, state: State, outputs: Outputs, directions: Directions, sensors: int) -> None:
+    """Set row j of the readings to that of sensor j: outward displacement, 1 if the rope is there, derivatives along directions.
 
-    A sensor at a fixed depth sees dy - (dy/dx) dx of the place on the rope that is before it.
+    A sensor at a fixed depth reads dy - (dy/dx) dx of the place on the rope that is before it.
     """
-    width = directions + 2
+    n, p, q, dq, number = rope.n, rope.p, state.q, directions.dq, directions.number
+    readings, width = directions.work.readings, number + 2
     for j in range(sensors):
-        side, x = int(sides[j]), depths[j]
-        sight(n, q0, side, x, seen)
-        glances[j * width], glances[j * width + 1] = side * seen[0] - p[R], seen[1]
-        i, lean, a, b, c, d = seen_place(n, q0, side, x)
-        for k in range(directions):
+        side, x = 1 if outputs.sensors[2 * j + 1] != 0.0 else -1, -outputs.sensors[2 * j]
+        read_sensor(n, q, side, x, outputs.reading)
+        readings[j * width], readings[j * width + 1] = side * outputs.reading[0] - p[R], outputs.reading[1]
+        i, lean, a, b, c, d = sensed_place(n, q, side, x)
+        for k in range(number):
             at = (k // LANES * 2 * (n + 1) + 2 * i) * LANES + k % LANES
-            moved = gather(dq, at + LANES, i, n, a, b, c, d) - lean * gather(dq, at, i, n, a, b, c, d)
-            glances[j * width + 2 + k] = side * moved - toward[parameters * k + R]
+            moved = weighted_sum(dq, at + LANES, i, n, a, b, c, d) - lean * weighted_sum(dq, at, i, n, a, b, c, d)
+            readings[j * width + 2 + k] = side * moved - directions.change[directions.parameters * k + R]
 
 
 @kernel
-def seen_place(n, q, side, x):
-    """A node i, the rope's inclination dy/dx where it is seen, and how nodes i - 1 .. i + 2 weigh in what is seen.
+def sensed_place(n, q, side, x):
+    """A node i, the rope's inclination dy/dx at the place read, and the weights of nodes i - 1 .. i + 2 in the reading.
 
     Next to the ends elements are straight.
     """
-    m, i = n + 1, seen_node(n, q, side, x)
+    m, i = n + 1, sensed_node(n, q, side, x)
     if i < 0:
         return -1 - i, 0.0, 0.0, 1.0, 0.0, 0.0
     if i < 1 or i > n - 3:
@@ -70,12 +72,12 @@ def seen_place(n, q, side, x):
         s = (x - q[i]) / length
         return i, (q[m + i + 1] - q[m + i]) / length, 0.0, 1.0 - s, s, 0.0
     s = crossing(q, i, x)
-    a, b, c, d = weights(s)
-    return i, smooth_slope(q, m, i, s) / smooth_slope(q, 0, i, s), a, b, c, d
+    a, b, c, d = catmull_rom_weights(s)
+    return i, catmull_rom_slope(q, m, i, s) / catmull_rom_slope(q, 0, i, s), a, b, c, d
 
 
 @kernel
-def gather(dq, at, i, n, a, b, c, d):
+def weighted_sum(dq, at, i, n, a, b, c, d):
     """Sum of the entries of nodes i - 1 .. i + 2 by their weights; nodes that do not exist have none."""
     total = b * dq[at]
     if i >= 1:

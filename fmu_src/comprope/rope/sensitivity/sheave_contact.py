@@ -1,4 +1,4 @@
-"""Directional derivative of contact and friction between rope and groove: `contact`, differentiated by hand.
+"""Directional derivative of contact and friction between rope and groove: `mechanics.sheave_contact`, differentiated by hand.
 
 All of a block's directions go through the contact's quadrature points together. With r and u a point's position and
 velocity relative to the groove's centre, rho = |r|, n = r / rho, and forces h = P (n + grip tau) on the rope,
@@ -11,17 +11,18 @@ How the groove's centre itself answers is read off `all_groove` by differences, 
 
 from math import sqrt
 
+from ..mechanics.contact_law import FADE, POINTS, contact_radius, friction_law, normal_law, shape
 from ..mechanics.effect_hooks import all_groove
-from ..mechanics.sheave_contact import FADE, POINTS, contact_radius, friction_law, near, normal_law, shape
+from ..mechanics.sheave_contact import near
 from ..runtime.array_layout import FIRST, LAST
 from ..runtime.jit import kernel
 from ..runtime.parameter_vector import ELEMENT, MU, V0, C, K, R
-from ..runtime.simd import LANES, put, take
-from .internal_forces import ahead
+from ..runtime.simd import LANES, load, store
+from .internal_forces import predicted
 
 
 @kernel
-def centre_slope(m, e, p, p1, angle, turned, lane, centre):
+def centre_derivative(e, p, p1, angle, turned, lane, centre):
     """Set lane `lane` of `centre` to the derivatives of the groove's offset and of its derivative by angle, by a difference e."""
     ex, ey, gx, gy = all_groove(p, angle)
     ex1, ey1, gx1, gy1 = all_groove(p1, angle + e * turned)
@@ -30,19 +31,29 @@ def centre_slope(m, e, p, p1, angle, turned, lane, centre):
 
 
 @kernel
-def law_slope(p, dp, d, depth, rate, slip, ddepth, drate, dslip):
-    """Changes of the normal force per length and of the friction's share of it."""
+def law_derivative(p, dp, d, at, change):
+    """Changes of the normal force per length and of the friction's share of it, by those of depth, rate and slip."""
+    depth, rate, slip = at
+    ddepth, drate, dslip = change
     _, P_depth, P_rate = normal_law(p, depth, rate)
     _, grip_slip = friction_law(p, slip)
     faded, root = depth / (depth + FADE) * rate, 1.0 / sqrt(slip * slip + p[V0] * p[V0])
-    dP = P_depth * ddepth + P_rate * drate + depth * take(dp, d + K * LANES) + faded * take(dp, d + C * LANES)
-    dgrip = grip_slip * dslip + (slip * root) * take(dp, d + MU * LANES)
-    return dP, dgrip - (p[MU] * slip * p[V0] * root * root * root) * take(dp, d + V0 * LANES)
+    dP = P_depth * ddepth + P_rate * drate + depth * load(dp, d + K * LANES) + faded * load(dp, d + C * LANES)
+    dgrip = grip_slip * dslip + (slip * root) * load(dp, d + MU * LANES)
+    return dP, dgrip - (p[MU] * slip * p[V0] * root * root * root) * load(dp, d + V0 * LANES)
 
 
 @kernel
-def point_slope(p, dp, d, radius, spin, dx, dy, vx, vy, gx, gy, dradius, grown, dspin, dgx, dgy, ax, ay, bx, by):
-    """Changes of a quadrature point's force on the rope and of its torque on the sheave, by those of r (a) and u (b)."""
+def point_derivative(p, dp, d, point, change, a, b):
+    """Changes of a quadrature point's force on the rope and of its torque on the sheave, by those of r (a) and u (b).
+
+    `point` has the contact radius, the sheave's spin, r, u and how the groove's centre moves with the sheave's angle;
+    `change` the changes of the radius, of the element's length (relative), of the spin and of that motion of the centre.
+    """
+    radius, spin, dx, dy, vx, vy, gx, gy = point
+    dradius, grown, dspin, dgx, dgy = change
+    ax, ay = a
+    bx, by = b
     rho = sqrt(dx * dx + dy * dy)
     nx, ny, per_rho = dx / rho, dy / rho, 1.0 / rho
     depth, rate, slip = radius - rho, -(nx * vx + ny * vy), nx * vy - ny * vx + spin * radius
@@ -51,7 +62,7 @@ def point_slope(p, dp, d, radius, spin, dx, dy, vx, vy, gx, gy, dradius, grown, 
     mx, my = (-ny * per_rho) * across, (nx * per_rho) * across
     drate = 0.0 * away - vx * mx - vy * my - nx * bx - ny * by
     dslip = vy * mx - vx * my + nx * by - ny * bx + radius * dspin + spin * dradius
-    dP, dgrip = law_slope(p, dp, d, depth, rate, slip, dradius - away, drate, dslip)
+    dP, dgrip = law_derivative(p, dp, d, (depth, rate, slip), (dradius - away, drate, dslip))
     length = p[ELEMENT] / POINTS
     sx, sy = nx + grip * ny, ny - grip * nx
     dP = length * (dP + P * grown)
@@ -73,22 +84,26 @@ def pressed(p, radius, dx, dy, vx, vy):
 
 
 @kernel
-def groove_slope(n, p, q, v, dp, d, base, h, new, centre, dq, dv, da, touch, D, lift, to):
-    """Add to a block of D `new` times how contact and friction answer, h ahead; set the block of lift at `to`.
+def contact_derivative(n, p, state, touch, directions, block, combination):
+    """Add to a block of D `new` times how contact and friction answer, predicted h ahead; set its part of `lift`.
 
-    `centre` has the changes of the groove's centre, see `centre_slope`; lift is the vertical force on the sheave.
+    work.centre has the changes of the groove's centre, see `centre_derivative`; `lift` is the vertical force on the sheave.
     """
+    h, new, _ = combination
+    q, v, dp, dq, dv, da = state.q, state.v, directions.dp, directions.dq, directions.dv, directions.da
+    D, centre = directions.work.D, directions.work.centre
+    d, base = directions.parameters * LANES * block, 2 * (n + 1) * LANES * block
     m, radius, spin, l = n + 1, contact_radius(p), v[n + n + 1], p[ELEMENT]
     ex, ey, gx, gy = all_groove(p, q[m + n])
     fx, fy, vx0, vy0 = q[n] + ex, ey, v[n] + spin * gx, spin * gy
-    grown, sheave = (1.0 / l) * take(dp, d + ELEMENT * LANES), base + 2 * LANES * n
-    dradius = (1.0 + l * l / (12.0 * p[R] * p[R])) * take(dp, d + R * LANES) - (l * l / (6.0 * p[R])) * grown
-    dx0, dvx0 = ahead(sheave, h, 0.5 * h * h, dq, dv, da)
-    _, dspin = ahead(sheave + LANES, h, 0.5 * h * h, dq, dv, da)
-    dgx, dgy = take(centre, 2 * LANES), take(centre, 3 * LANES)
-    dx0, dy0 = dx0 + take(centre, 0), take(centre, LANES)
+    grown, sheave = (1.0 / l) * load(dp, d + ELEMENT * LANES), base + 2 * LANES * n
+    dradius = (1.0 + l * l / (12.0 * p[R] * p[R])) * load(dp, d + R * LANES) - (l * l / (6.0 * p[R])) * grown
+    dx0, dvx0 = predicted(sheave, h, 0.5 * h * h, dq, dv, da)
+    _, dspin = predicted(sheave + LANES, h, 0.5 * h * h, dq, dv, da)
+    dgx, dgy = load(centre, 2 * LANES), load(centre, 3 * LANES)
+    dx0, dy0 = dx0 + load(centre, 0), load(centre, LANES)
     dvx0, dvy0 = dvx0 + gx * dspin + spin * dgx, gy * dspin + spin * dgy
-    total, torque = 0.0 * dx0, 0.0 * dx0
+    total, torque, change = 0.0 * dx0, 0.0 * dx0, (dradius, grown, dspin, dgx, dgy)
     for i in range(int(touch[FIRST]), int(touch[LAST]) + 1):
         if near(m, p, q, i, fx, fy):
             for g in range(POINTS):
@@ -98,33 +113,33 @@ def groove_slope(n, p, q, v, dp, d, base, h, new, centre, dq, dv, da, touch, D, 
                 vx = na * v[i - 1] + nb * v[i] + nc * v[i + 1] - vx0
                 vy = na * v[m + i - 1] + nb * v[m + i] + nc * v[m + i + 1] - vy0
                 if pressed(p, radius, dx, dy, vx, vy):
-                    x, bx = between(base + 2 * LANES * i, na, nb, nc, h, dq, dv, da)
-                    y, by = between(base + 2 * LANES * i + LANES, na, nb, nc, h, dq, dv, da)
-                    hx, hy, twist = point_slope(p, dp, d, radius, spin, dx, dy, vx, vy, gx, gy, dradius, grown, dspin, dgx, dgy,
-                                                x - dx0, y - dy0, bx - dvx0, by - dvy0)  # fmt: skip
-                    share_out(D, base + 2 * LANES * i, na, nb, nc, new * hx, new * hy)
+                    x, bx = interpolated(base + 2 * LANES * i, na, nb, nc, h, dq, dv, da)
+                    y, by = interpolated(base + 2 * LANES * i + LANES, na, nb, nc, h, dq, dv, da)
+                    point = (radius, spin, dx, dy, vx, vy, gx, gy)
+                    hx, hy, twist = point_derivative(p, dp, d, point, change, (x - dx0, y - dy0), (bx - dvx0, by - dvy0))
+                    distribute(D, base + 2 * LANES * i, na, nb, nc, new * hx, new * hy)
                     total, torque = total + hx, torque + twist
-    put(D, sheave, take(D, sheave) - new * total)
-    put(D, sheave + LANES, take(D, sheave + LANES) - new * torque)
-    put(lift, to, 0.0 * total - total)
+    store(D, sheave, load(D, sheave) - new * total)
+    store(D, sheave + LANES, load(D, sheave + LANES) - new * torque)
+    store(directions.work.lift, block * LANES, 0.0 * total - total)
 
 
 @kernel
-def between(at, na, nb, nc, h, dq, dv, da):
-    """Predicted changes of position and velocity between three nodes, by their weights; `at` is the middle one's entry."""
+def interpolated(entry, na, nb, nc, h, dq, dv, da):
+    """Predicted changes of position and velocity between three nodes, by their weights, from the middle one's entry."""
     half = 0.5 * h * h
-    xa, va = ahead(at - 2 * LANES, h, half, dq, dv, da)
-    xb, vb = ahead(at, h, half, dq, dv, da)
-    xc, vc = ahead(at + 2 * LANES, h, half, dq, dv, da)
+    xa, va = predicted(entry - 2 * LANES, h, half, dq, dv, da)
+    xb, vb = predicted(entry, h, half, dq, dv, da)
+    xc, vc = predicted(entry + 2 * LANES, h, half, dq, dv, da)
     return na * xa + nb * xb + nc * xc, na * va + nb * vb + nc * vc
 
 
 @kernel
-def share_out(D, at, na, nb, nc, hx, hy):
-    """Add a point's force to its three nodes; `at` is the middle one's entry."""
-    put(D, at - 2 * LANES, take(D, at - 2 * LANES) + na * hx)
-    put(D, at - LANES, take(D, at - LANES) + na * hy)
-    put(D, at, take(D, at) + nb * hx)
-    put(D, at + LANES, take(D, at + LANES) + nb * hy)
-    put(D, at + 2 * LANES, take(D, at + 2 * LANES) + nc * hx)
-    put(D, at + 3 * LANES, take(D, at + 3 * LANES) + nc * hy)
+def distribute(D, entry, na, nb, nc, hx, hy):
+    """Add a point's force to its three nodes, from the middle one's entry."""
+    store(D, entry - 2 * LANES, load(D, entry - 2 * LANES) + na * hx)
+    store(D, entry - LANES, load(D, entry - LANES) + na * hy)
+    store(D, entry, load(D, entry) + nb * hx)
+    store(D, entry + LANES, load(D, entry + LANES) + nb * hy)
+    store(D, entry + 2 * LANES, load(D, entry + 2 * LANES) + nc * hx)
+    store(D, entry + 3 * LANES, load(D, entry + 3 * LANES) + nc * hy)

@@ -125,7 +125,7 @@ class RopeSimulator:
         )
         car, counterweight = (float(inputs[f"{end}_position"]) for end in _ENDS)
         outward = (float(inputs["car_lateral_displacement"]), float(inputs["counterweight_lateral_displacement"]))
-        self.rope.settle(car, counterweight, outward, start_time)
+        self.rope.solve_equilibrium(car, counterweight, outward, start_time)
 
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
         """Advance from `time` by `dt` [s]; raises InputError for ends out of reach, SimulationError for a lost step."""
@@ -135,7 +135,7 @@ class RopeSimulator:
 
     def outputs(self) -> Mapping[str, Value]:
         """Every output by name, at the time reached."""
-        return self.rope.displayed()
+        return self.rope.all_outputs()
 
     def get_state(self) -> bytes:
         """Rope and memory of the inputs."""

@@ -82,7 +82,7 @@ def relative_to_rest(values: dict[str, Floats], run: Run, channels: Mapping[str,
 
 def _drive(rope: CompensationRope, run: Run, grid: Floats, channels: Mapping[str, Channel]) -> dict[str, Floats]:
     paths = _paths(rope.model, run, grid)
-    rope.settle(-paths[0, 0, 0], -paths[0, 2, 0], time=float(grid[0]))
+    rope.solve_equilibrium(-paths[0, 0, 0], -paths[0, 2, 0], time=float(grid[0]))
     seen = {column: np.ones((len(grid), 2)) for column in channels}
     sensors = {sensor.name: sensor for sensor in rope.model.sensors}
     evaluated = any(one.quantity.endswith(("force", "tension")) for one in channels.values())

@@ -75,7 +75,7 @@ def _drive(
 ) -> tuple[dict[str, Floats], dict[str, Floats]]:
     """Each channel and its derivatives (times, 1 + directions) on the grid, and where it is out of view (times,)."""
     paths = _paths(rope.rope.model, run, grid)
-    rope.settle(-paths[0, 0, 0], -paths[0, 2, 0], time=float(grid[0]))
+    rope.solve_equilibrium(-paths[0, 0, 0], -paths[0, 2, 0], time=float(grid[0]))
     seen = {column: np.zeros((len(grid), 1 + len(rope.names))) for column in channels}
     hidden = {column: np.zeros(len(grid)) for column in channels}
     looked = np.zeros((len(grid), len(rope.rope.model.sensors), 2 + len(rope.names)))
@@ -85,7 +85,7 @@ def _drive(
         if k:
             rope.step(REPLAY.output_interval, np.concatenate([paths[k - 1], paths[k]], axis=1).ravel())
         if lasers:
-            looked[k] = rope.sights()
+            looked[k] = rope.read_sensors()
         if others:
             _note(rope, others, {column: values[k] for column, values in seen.items()})
     for column, j in lasers.items():

@@ -81,7 +81,7 @@ def push(n, t, p, q, v, w, f):
 
 
 @kernel
-def unheard(n, t, p, q, v, w, A, ck, cc):
+def unheard(n, t, p, q, v, w, A, weights):
     """No tangents: a pulse is only ever differentiated where it is not yet."""
 
 

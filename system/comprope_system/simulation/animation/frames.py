@@ -53,7 +53,7 @@ def at_rest(model: Base, frames: Iterable[Frame]) -> list[Floats]:
     """Static shapes (2, POINTS) [m] of the sides for the positions of the ends in each frame."""
     rope, found = CompensationRope(model), []
     for frame in frames:
-        rope.settle(*frame.ends)
+        rope.solve_equilibrium(*frame.ends)
         found.append(_sides(rope))
     return found
 
