@@ -25,10 +25,10 @@ from comprope_system.simulation.result_columns import columns
 PATH = Path(__file__).with_name("reference.md")
 TITLE = """# Reference
 
-Everything that has a name: what it means, its unit and its accepted range. This page is made from the program's own
-declarations by `python docs/build_reference.py`; do not edit it.
+All keys, parameters, variables and columns with their meaning, unit and accepted range. This page is generated from the
+declarations in the program by `python docs/build_reference.py`; do not edit it.
 """
-# The paper's letters, as the kernels use them, and what they stand for: a declared quantity, or an FMU's variable.
+# Symbols of the paper, as used in the kernels, and their quantity or FMU variable.
 SYMBOLS = {
     "rho": "rope.mass_per_length", "EA": "rope.axial_stiffness", "EI": "rope.bending_stiffness", "c_A": "rope.axial_damping",
     "c_B": "rope.bending_damping", "c_E": "rope.external_damping", "d": "rope.diameter", "l": "rope.element_length",
@@ -42,7 +42,7 @@ VARIABLES = {  # state variables: symbol, sign between the equations and the FMU
 
 
 def text() -> str:
-    """The whole page."""
+    """Text of the page."""
     rope, drive = rope_interface(load(model_path("tower50"))), drive_interface()
     parts = [
         TITLE, _symbols(rope), _model_file(), _effects(), _campaign(), _columns(),
@@ -67,19 +67,19 @@ def _symbols(rope: ModelInterface) -> str:
 
 
 def _model_file() -> str:
-    said = "Tables of a model file. Without a default a quantity must be given. FMU parameters have the same names."
+    introduction = "Tables of a model file. Without a default a quantity must be given. FMU parameters have the same names."
     tables = [_quantities(f"`[{name}]`", component) for name, component in COMPONENTS.items()]
-    return "\n".join([f"## Model file\n\n{said}\n", *tables, _fields("`[[sensors]]`", Sensor, 3)])
+    return "\n".join([f"## Model file\n\n{introduction}\n", *tables, _fields("`[[sensors]]`", Sensor, 3)])
 
 
 def _effects() -> str:
-    said = (
-        "Each is a table `[effects.NAME]` of a model file. An effect that is not mentioned is not in the model. Formulas and "
+    introduction = (
+        "Each is a table `[effects.NAME]` of a model file. An effect without a table is not part of the model. Formulas and "
         "sources: [theory.md](theory.md). Effects of your own: [own_effect.md](own_effect.md)."
     )
     tables = [_quantities(f"`[effects.{name}]`", effect) for name, effect in REGISTRY.items() if not effect.source]
     instruments = _table(("instrument", ""), [(f"`[effects.{name}]`", help) for name, help in INSTRUMENT.items()])
-    return "\n".join([f"## Effects\n\n{said}\n", *tables, "### Instruments\n", instruments])
+    return "\n".join([f"## Effects\n\n{introduction}\n", *tables, "### Instruments\n", instruments])
 
 
 def _campaign() -> str:
@@ -97,17 +97,17 @@ def _campaign() -> str:
 def _columns() -> str:
     rows = [("`time`", "s", "from the start of the simulation")]
     rows += [(f"`{one.name}`", one.unit, one.help) for one in columns(("NAME",), driven=True)]
-    said = "What `comprope simulate --out FILE.csv` writes; `NAME` stands for each sensor's name."
-    return _section("Columns of a simulated trip", said, ("column", "unit", ""), rows)
+    introduction = "What `comprope simulate --out FILE.csv` writes; `NAME` stands for each sensor's name."
+    return _section("Columns of a simulated trip", introduction, ("column", "unit", ""), rows)
 
 
 def _drive() -> str:
     tables = [_quantities(f"`[{name}]`", type(getattr(Drive(), name))) for name in Drive.model_fields if name != "curve"]
-    said = (
+    introduction = (
         "Tables of a drive file, `comprope simulate --drive FILE.toml`, and parameters of the drive's FMU. `[curve]` has `a1` to "
         "`a19`: accelerations at twentieths of the travel time, over the largest, for trips of a free shape."
     )
-    return "\n".join([f"## Drive file\n\n{said}\n", *tables])
+    return "\n".join([f"## Drive file\n\n{introduction}\n", *tables])
 
 
 def _plant_priors() -> str:
@@ -134,7 +134,7 @@ def _settings() -> str:
         "and where its value comes from. They are part of the method and not meant to be set for a campaign."
     )
     tables = [
-        f"### {type(group).__name__}\n\n{_said(type(group))}"
+        f"### {type(group).__name__}\n\n{_summary(type(group))}"
         + _table(
             ("constant", "value", "unit", "decides", "origin"),
             [(f"`{one.name}`", _shown(one.value), "" if one.unit == "1" else one.unit, one.decides, one.origin)
@@ -150,7 +150,7 @@ def _shown(value: object) -> str:
 
 
 def _fmu(title: str, interface: ModelInterface) -> str:
-    said = f"`{interface.name}.fmu`. {interface.description}."
+    introduction = f"`{interface.name}.fmu`. {interface.description}."
     rows = [
         (f"`{one.name}`", role, one.kind, one.unit if one.kind == "real" else "", one.help)
         for role in ("input", "output")
@@ -160,15 +160,15 @@ def _fmu(title: str, interface: ModelInterface) -> str:
     switches = [
         (f"`{one.name}`", "parameter", one.kind, "", one.help) for one in interface.of_role("parameter") if "." not in one.name
     ]
-    return _section(title, said, ("variable", "role", "type", "unit", ""), rows + switches)
+    return _section(title, introduction, ("variable", "role", "type", "unit", ""), rows + switches)
 
 
 def _quantities(title: str, component: type[BaseModel]) -> str:
     rows = [(f"`{one.name}`", one.unit, _range(one), _default(one), one.help) for one in quantities(component)]
-    return f"### {title}\n\n{_said(component)}{_table(('key', 'unit', 'accepted', 'default', ''), rows)}"
+    return f"### {title}\n\n{_summary(component)}{_table(('key', 'unit', 'accepted', 'default', ''), rows)}"
 
 
-def _said(component: type[BaseModel]) -> str:
+def _summary(component: type[BaseModel]) -> str:
     return f"{(component.__doc__ or '').strip().splitlines()[0]}\n\n"
 
 
@@ -185,11 +185,11 @@ def _fields(title: str, component: type[BaseModel], level: int) -> str:
         (f"`{name}`", "required" if field.is_required() else "", field.description or "")
         for name, field in component.model_fields.items()
     ]
-    return f"{'#' * level} {title}\n\n{_said(component)}{_table(('key', '', ''), rows)}"
+    return f"{'#' * level} {title}\n\n{_summary(component)}{_table(('key', '', ''), rows)}"
 
 
-def _section(title: str, said: str, head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    return f"## {title}\n\n{said}\n\n{_table(head, rows)}"
+def _section(title: str, introduction: str, head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    return f"## {title}\n\n{introduction}\n\n{_table(head, rows)}"
 
 
 def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

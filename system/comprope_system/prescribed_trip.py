@@ -42,7 +42,7 @@ def _moments(motion: TrajectoryPoint, height: float, radius: float) -> Floats:
 
 
 def ride(rope: CompensationRope, trip: SCurve | ReferenceTrajectory, until: float, interval: float = INTERVAL) -> Iterator[float]:
-    """Settle the rope at the trip's origin and take it along; gives the time [s] of each sample, 0 first.
+    """Solve static equilibrium at the start of the trip and simulate it; yields the time [s] of each sample, 0 first.
 
     Raises `SimulationError` where a step cannot be saved.
     """
@@ -57,7 +57,7 @@ def ride(rope: CompensationRope, trip: SCurve | ReferenceTrajectory, until: floa
 def record(
     model: Base, trip: SCurve | ReferenceTrajectory, until: float, look: Callable[[CompensationRope], Floats]
 ) -> tuple[Floats, Floats]:
-    """Times (n,) and what `look` sees of the rope at each of them (n, ...)."""
+    """Times (n,) and the values `look` returns for the rope at each of them (n, ...)."""
     rope = CompensationRope(model)
     seen = [(time, look(rope)) for time in ride(rope, trip, until)]
     return np.array([time for time, _ in seen]), np.array([values for _, values in seen])

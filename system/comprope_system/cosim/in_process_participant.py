@@ -10,7 +10,7 @@ from comprope.fmi.model_interface import Kind, ModelInterface, Simulator, Variab
 
 
 class InProcessParticipant:
-    """A participant that runs a model's engine as its FMU's face does."""
+    """A participant that uses the simulator of a model as its FMU does."""
 
     def __init__(self, name: str, interface: ModelInterface, parameters: Mapping[str, Any]) -> None:
         """Raises `InputError` for unknown or invalid parameters."""

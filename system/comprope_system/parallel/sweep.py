@@ -47,7 +47,7 @@ def sweep(
     """`task(case)` for each case, in their order; without an executor one after the other in this process.
 
     `task` is a function at the top of a module that the executor's workers can import. A case that raises a
-    `CompropeError` has failed, which is told in its outcome; failed cases are run again next time. `progress` is called
+    `CompropeError` has failed; its outcome contains the message, and it is computed again next time. `progress` is called
     with `label`, the number of results that are there, and that of all.
     """
     keys = [key_of(task, case) for case in cases]

@@ -47,7 +47,7 @@ def up(name: str, distance: float) -> SCurve:
 
 
 def table(name: str, changes: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """A building as a case has it: the whole model, so that a worker needs no file and a changed file is another case."""
+    """A building as part of a case: the complete model, so that workers need no file and a changed file is a different case."""
     return as_table(building(name, changes))
 
 

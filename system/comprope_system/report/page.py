@@ -61,7 +61,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Animation:
-    """A film (see `animation.film`) that the page plays, with a name and a caption."""
+    """An animation (see `simulation.animation.encoding.film`) with a name and a caption."""
 
     name: str
     film: dict[str, Any]

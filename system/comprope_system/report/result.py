@@ -34,10 +34,10 @@ class Result(ABC):
 
     @abstractmethod
     def save_html(self, path: str | Path) -> None:
-        """Write a self-contained page, whole or not at all; raises `InputError` if the file cannot be written."""
+        """Write a self-contained HTML page, completely or not at all; raises `InputError` if the file cannot be written."""
 
     def save_json(self, path: str | Path) -> None:
-        """Write `to_json()` to a file, whole or not at all; raises `InputError` if it cannot be written."""
+        """Write `to_json()` to a file, completely or not at all; raises `InputError` if it cannot be written."""
         from .json_output import save_json
 
         save_json(Path(path), self.to_json())

@@ -159,7 +159,7 @@ def _on_full_model(
 
 
 def _sensors(model: RopeModel, profile: Profile, options: DesignOptions) -> dict[str, Any]:
-    """The heights [m] from which a few sensors see most of every large swing."""
+    """Heights [m] at which a few sensors measure most of every large swing."""
     reduced, heights = reduced_model_of(model), floor_heights(model.shaft.height, options.floors)
     positions = np.linspace(LOWEST - model.shaft.pit, model.shaft.height, SENSOR_POSITIONS)
     occasions: tuple[list[Any], list[Any]] = ([], [])  # during and after trips

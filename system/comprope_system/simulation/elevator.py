@@ -48,7 +48,7 @@ def driven_elevator(model: RopeModel, drive: Drive, direct: bool = False) -> Ite
 
 @contextmanager
 def prescribed_elevator(model: RopeModel, trips: Mapping[str, Trip], direct: bool = False) -> Iterator[Elevator]:
-    """The rope under a car and counterweight that move as measured; see `PrescribedMotion`."""
+    """The rope with prescribed motion of car and counterweight; see `PrescribedMotion`."""
     with ExitStack() as stack:
         yield Elevator((PrescribedMotion("motion", trips), _rope(stack, model, direct)), FORWARD, False)
 

@@ -119,7 +119,7 @@ def _model(model: ModelInput, changes: Changes | None) -> tuple[RopeModel, dict[
 def _driven(
     model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]], fmu: bool
 ) -> tuple[AbstractContextManager[Elevator], float]:
-    """The elevator with its drive in the model's shaft on the trip asked for, and how long to simulate it [s]."""
+    """The elevator with its drive for the requested trip in the shaft of the model, and the simulated time [s]."""
     height = rope_model.shaft.height
     limits = {"speed": motion.speed, "acceleration": motion.acceleration, "jerk": motion.jerk}
     trip = {

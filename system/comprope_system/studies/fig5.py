@@ -49,7 +49,7 @@ def first_mode(rope: CompensationRope, string: HangingString) -> float:
 def frequencies(time: Floats, signal: Floats) -> tuple[Floats, Floats]:
     """Instants [s] and frequencies [Hz] of an oscillation: from each extreme to the next but one is a period.
 
-    Whole periods, since a drifting mean lengthens one half of each swing and shortens the other.
+    Full periods are used, since a drift of the mean makes half periods unequal.
     """
     extremes = np.sort(np.concatenate([find_peaks(side * signal, prominence=PROMINENCE)[0] for side in (1, -1)]))
     at = np.array([_vertex(time, signal, k) for k in extremes])

@@ -77,7 +77,7 @@ def _heights(reduced: ReducedModel, route: Route, side: str) -> Floats:
 def _trace(
     reduced: ReducedModel, heights: dict[str, Floats], end: float, time: Floats, car: Floats, samples: Floats
 ) -> DepartureTrace:
-    """Departures of both sides from their shapes at rest, where the sensors see the rope clear of the sheave."""
+    """Displacements of both sides relative to their static shapes, at sensors above the sheave."""
     departures, first = {}, 0
     for side, each in heights.items():
         length, above = reduced.length(side, car), each + reduced.pit
