@@ -8,7 +8,8 @@ import pytest
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
 from comprope.rope.compiler.workspace import RopeWorkspace
 from comprope.rope.effects import REGISTRY
-from comprope.rope.runtime.parameter_vector import ELEMENT
+from comprope.rope.runtime.array_layout import ELASTIC, FRICTION_LOSS, NORMAL_LOSS
+from comprope.rope.runtime.parameter_vector import ELEMENT, C, K
 
 from .random_rope import COMPANIONS, TIME, forces, nominal, random_state
 from .rope_tower import STUB, rope, way
@@ -160,3 +161,21 @@ def test_a_rope_hung_with_an_effect_stays_at_rest(effect: str) -> None:
     one.step(0.02, path)
     # Settled to 1e-11 m; what that leaves of forces moves the rope by less than the tolerance of a time step, 1e-8 m.
     assert np.abs(one.state.q - before).max() < 1e-8
+
+
+@pytest.mark.parametrize("changes", [{}, nominal("sheave_eccentricity") | {"effects.sheave_eccentricity.eccentricity": 0.02}])
+def test_the_contact_stores_and_loses_what_it_takes(changes: dict[str, float]) -> None:
+    """The forces of the same rope without a contact stiffness and damping are taken off: what is left is the contact's."""
+    do, apart = random_state(changes), random_state(changes)
+    apart.state.from_bytes(do.state.to_bytes())
+    apart.standing["p"][[K, C]] = 0.0
+    contact, v, h, stored = forces(do) - forces(apart), do.state.v.copy(), 1e-8, []
+    lost = do.touch[NORMAL_LOSS] + do.touch[FRICTION_LOSS]
+    for side in (h, -h):
+        do.state.q += side * v
+        forces(do)
+        stored.append(do.touch[ELASTIC])
+        do.state.q -= side * v
+    # Energies of a joule, differenced over 10 ns of motion, carry 1e-8 W of rounding.
+    assert contact @ v == pytest.approx(-(stored[0] - stored[1]) / (2.0 * h) - lost, rel=1e-6, abs=1e-5)
+    assert lost > 1.0  # W

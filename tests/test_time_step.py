@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
+from comprope.errors import InputError
 from comprope.rope.runtime.kernel_arguments import State
 from comprope.rope.simulator.rope import CompensationRope
 
@@ -108,3 +109,69 @@ def test_the_ends_do_the_work_of_their_holders_and_the_energy_balances() -> None
     gained = sum(stored.values()) - sum(reference(one, states[0]).stored().values())
     lost = sum(energies[-1][name] for name in reference(one, states[0]).losses())
     assert one.energy_residual == pytest.approx(gained - energies[-1]["ends"] + lost, abs=1e-6)
+
+
+def test_the_ends_are_where_their_path_ends() -> None:
+    one, states, _, _ = shaken()
+    for k, state in enumerate(states[1:], 1):
+        car, q, v, a = motion(k * H), state.q, state.v, state.a
+        assert q[[0, one.n - 1]] == pytest.approx([-car.position, car.position - 1.0], abs=1e-14)
+        assert v[[0, one.n - 1]] == pytest.approx([-car.velocity, car.velocity], abs=1e-12)
+        assert a[[0, one.n - 1]] == pytest.approx([-car.acceleration, car.acceleration], abs=1e-10)
+        assert q[[one.n + 1, 2 * one.n]] == pytest.approx([-STUB.sheave.radius, STUB.sheave.radius], abs=1e-14)
+
+
+def steps_taken(speeds: tuple[float, float, float, float], dt: float, step: float) -> int:
+    """Time steps of a communication step in which car and counterweight begin and end with vertical velocities (down)."""
+    one = rope({"solver.step": step}, STUB)
+    one.settle(0.5, 0.5)
+    path = np.zeros((4, 6))
+    path[[0, 2], 0] = -0.5
+    path[0, [1, 4]], path[2, [1, 4]] = speeds[:2], speeds[2:]
+    path[[0, 2], 3] = -0.5 + 0.5 * dt * path[[0, 2], 1] + 0.5 * dt * path[[0, 2], 4]
+    path[1], path[3] = [-STUB.sheave.radius, 0, 0] * 2, [STUB.sheave.radius, 0, 0] * 2
+    one.step(dt, path.ravel())
+    return one.count["steps"] if one.count["halved"] == 0 else -1
+
+
+@pytest.mark.parametrize(
+    ("speeds", "dt", "step", "expected"),
+    [
+        ((0.0, 0.0, 0.0, 0.0), 0.02, 0.02, 1),
+        ((0.0, 0.0, 0.0, 0.0), 0.021, 0.003, 7),  # 0.021 / 0.003 is a little more than 7 in floating point
+        ((0.0, 0.0, 0.0, 0.0), 0.02, 0.0066, 4),
+        ((0.0, -2.0, 0.0, 0.0), 0.02, 0.02, 2),  # 40 mm in 20 ms, of which a time step may have 0.6 elements of 50 mm
+        ((0.0, 0.0, 0.0, -2.0), 0.02, 0.02, 2),
+        ((0.0, 2.0, 0.0, -4.0), 0.02, 0.02, 3),
+        ((0.0, -0.2, 0.0, 0.0), 0.02, 0.02, 1),
+    ],
+)
+def test_a_communication_step_has_as_many_time_steps_as_its_length_and_speed_ask_for(
+    speeds: tuple[float, float, float, float], dt: float, step: float, expected: int
+) -> None:
+    assert steps_taken(speeds, dt, step) == expected
+
+
+def test_elements_make_up_for_the_chords_at_the_sheave() -> None:
+    """The rope's natural length less l^2 (L + A) / (48 R^2), see mesh.py; none where the rope hangs as a loop."""
+    for mass in (STUB.sheave.mass, 2.0):
+        model = rope({"sheave.mass": mass}, STUB).model
+        radius, stiffness = model.sheave.radius, model.rope.bending_stiffness
+        length = 2.0 * model.shaft.pit + model.shaft.height + np.pi * radius
+        elements = round(length / model.rope.element_length)
+        straightens = np.sqrt(stiffness / (0.5 * mass * model.shaft.gravity))
+        sinks = (4.0 * stiffness / model.contact.stiffness) ** 0.25
+        short = (length / elements) ** 2 * (straightens + sinks) / (48.0 * radius**2)
+        loop = straightens > np.sqrt(2.0) * radius
+        assert loop is np.bool_(mass == 2.0)
+        assert rope({"sheave.mass": mass}, STUB).element * elements == pytest.approx(length - (0.0 if loop else short), rel=1e-14)
+
+
+def test_ends_too_far_apart_to_reach_are_refused() -> None:
+    """Straight sides and the half circle of 3.46 m: ends 1.4 m apart have the lower a radius above the axle."""
+    one = rope({}, STUB)
+    one.settle(0.0, 1.39)
+    with pytest.raises(InputError, match="would hang the axle at"):
+        one.settle(0.0, 1.41)
+    with pytest.raises(InputError, match="would hang the axle at"):
+        one.settle(1.41, 0.0)
