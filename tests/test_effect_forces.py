@@ -168,14 +168,14 @@ def test_the_contact_stores_and_loses_what_it_takes(changes: dict[str, float]) -
     """The forces of the same rope without a contact stiffness and damping are taken off: what is left is the contact's."""
     do, apart = random_state(changes), random_state(changes)
     apart.state.from_bytes(do.state.to_bytes())
-    apart.standing["p"][[K, C]] = 0.0
+    apart.rope.p[[K, C]] = 0.0
     contact, v, h, stored = forces(do) - forces(apart), do.state.v.copy(), 1e-8, []
-    lost = do.touch[NORMAL_LOSS] + do.touch[FRICTION_LOSS]
+    lost = do.work.touch[NORMAL_LOSS] + do.work.touch[FRICTION_LOSS]
     for side in (h, -h):
-        do.state.q += side * v
+        do.state.q[:] += side * v
         forces(do)
-        stored.append(do.touch[ELASTIC])
-        do.state.q -= side * v
+        stored.append(do.work.touch[ELASTIC])
+        do.state.q[:] -= side * v
     # Energies of a joule, differenced over 10 ns of motion, carry 1e-8 W of rounding.
     assert contact @ v == pytest.approx(-(stored[0] - stored[1]) / (2.0 * h) - lost, rel=1e-6, abs=1e-5)
     assert lost > 1.0  # W

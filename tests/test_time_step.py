@@ -124,7 +124,7 @@ def test_the_ends_are_where_their_path_ends() -> None:
 def steps_taken(speeds: tuple[float, float, float, float], dt: float, step: float) -> int:
     """Time steps of a communication step in which car and counterweight begin and end with vertical velocities (down)."""
     one = rope({"solver.step": step}, STUB)
-    one.settle(0.5, 0.5)
+    one.solve_equilibrium(0.5, 0.5)
     path = np.zeros((4, 6))
     path[[0, 2], 0] = -0.5
     path[0, [1, 4]], path[2, [1, 4]] = speeds[:2], speeds[2:]
@@ -170,8 +170,8 @@ def test_elements_make_up_for_the_chords_at_the_sheave() -> None:
 def test_ends_too_far_apart_to_reach_are_refused() -> None:
     """Straight sides and the half circle of 3.46 m: ends 1.4 m apart have the lower a radius above the axle."""
     one = rope({}, STUB)
-    one.settle(0.0, 1.39)
+    one.solve_equilibrium(0.0, 1.39)
     with pytest.raises(InputError, match="would hang the axle at"):
-        one.settle(0.0, 1.41)
+        one.solve_equilibrium(0.0, 1.41)
     with pytest.raises(InputError, match="would hang the axle at"):
-        one.settle(1.41, 0.0)
+        one.solve_equilibrium(1.41, 0.0)
