@@ -1,4 +1,4 @@
-"""Run FMUs in independent importers and compare where they end.
+"""Simulates FMUs in independent importers and compares their final outputs.
 
     python benchmarks/importers.py dist/*.fmu [--steps 1000] [--step-size 0.001]
 
@@ -28,7 +28,7 @@ SWAYING = {"effects.building_sway.amplitude": 0.1, "effects.building_sway.freque
 
 
 def set_parameters(path: str) -> dict[str, tuple[int, float]]:
-    """What is set of an FMU's parameters: value reference and value by name."""
+    """The parameters set in an FMU: value reference and value by name."""
     places = {one.name: one.valueReference for one in read_model_description(path).modelVariables}
     return {name: (places[name], value) for name, value in SWAYING.items() if name in places}
 
@@ -129,13 +129,13 @@ def compare(paths: list[str], steps: int, dt: float) -> int:
 
 
 def _importers_of(paths: list[str]) -> list[str]:
-    """Those that read the FMUs' versions of FMI: libcosim has 2.0 at most."""
+    """The importers that support the FMUs' versions of FMI: libcosim supports 2.0 at most."""
     newer = any(read_model_description(path).fmiVersion == "3.0" for path in paths)
     return [name for name in IMPORTERS if not (newer and name == "libcosimpy")]
 
 
 def _apart(importer: str, paths: list[str], steps: int, dt: float) -> tuple[float, Ends] | str:
-    """What an importer finds in a process of its own, or why it does not."""
+    """The final outputs of an importer, run in its own process, or why it failed."""
     command = [sys.executable, __file__, "--worker", importer, "--steps", str(steps), "--step-size", repr(dt), *paths]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     if result.returncode or result.stderr.strip():
@@ -165,7 +165,7 @@ def _difference(paths: list[str], reference: Ends, ends: Ends) -> str:
 
 
 def main() -> int:
-    """Compare, or, as a worker, run one importer and print what it finds as JSON."""
+    """Compare; or, as a worker process, run one importer and print its final outputs as JSON."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("fmus", nargs="+", metavar="FMU")
     parser.add_argument("--steps", type=int, default=1000)

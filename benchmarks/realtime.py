@@ -1,4 +1,4 @@
-"""How long one communication step of 10 ms takes: median, 99.9th percentile and worst, against its 10 ms budget.
+"""Computing time of one communication step of 10 ms: median, 99.9th percentile and maximum, against its 10 ms budget.
 
     python benchmarks/realtime.py dist/CompensationRope-native.fmu dist/CompensationRope.fmu [--steps 3000]
 

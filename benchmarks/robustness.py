@@ -1,9 +1,9 @@
-"""What the FMUs of the rope survive: random calls, and parameters at the corners of their ranges.
+"""Robustness of the rope's FMUs: random calls, and parameters at the corners of their ranges.
 
     python benchmarks/robustness.py dist/CompensationRope*.fmu [--calls 100000] [--corners 2000]
 
 Random calls are compared, bit for bit, with the model run without an FMU. Each set of corner values must run a second
-of a trip or be refused with a sentence; the table counts what was said.
+of a trip or be refused with a sentence; the table counts the sentences.
 """
 
 import argparse
@@ -27,7 +27,7 @@ _PAGE = 4096 / 1e6  # MB
 
 
 def pair_of(path: str) -> Pair:
-    """The FMU beside the model; the one in Python returns fmi2Fatal and does not mind the order of calls."""
+    """The FMU paired with the model; the one in Python returns fmi2Fatal and does not check the order of calls."""
     if read_model_description(path).fmiVersion == "3.0":
         return Pair3(Path(path), tower())
     native = "native" in Path(path).stem
@@ -65,7 +65,7 @@ def corners(path: str, count: int) -> None:
 
 
 def outcome(pair: Pair, values: dict[str, float]) -> str:
-    """What becomes of half a second with these values: "ran", or how it was refused, without its numbers."""
+    """The outcome of half a second with these values: "ran", or the refusal without its numbers."""
     instance, places, height = pair.instance, pair.references, values.get("shaft.height", 50.0)
     ends = [places["car_position"], places["counterweight_position"]]
     try:

@@ -1,4 +1,4 @@
-"""A day of random trips through an FMU: is memory bounded, does the energy ledger close, does anything fail?
+"""Long test of an FMU, a day of random trips: memory, energy residual and failures.
 
     python benchmarks/soak.py dist/CompensationRope-native.fmu [--hours 24] [--step 0.02] [--element 0.05] [--seed 1]
 
@@ -59,7 +59,7 @@ def begun(path: str, element: float) -> tuple[Any, dict[str, int]]:
 
 
 def soak(slave: Any, places: dict[str, int], options: argparse.Namespace) -> None:
-    """Run, with a line for each simulated hour."""
+    """Simulate, and print a line for each simulated hour."""
     step, exchanged, slowest = options.step, 0.0, 0.0
     inputs, shown = [places[name] for name in INPUTS], [places[name] for name in SHOWN]
     begin, per_hour = time.perf_counter(), round(3600.0 / step)

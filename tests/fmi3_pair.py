@@ -35,16 +35,16 @@ class Pair3(Pair):
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName="pair",
         )
-        self.instance.instantiate(loggingOn=True, logMessage=self._hear3)
+        self.instance.instantiate(loggingOn=True, logMessage=self._log3)
 
-    def _hear3(self, _environment: Any, status: int, _category: bytes, message: bytes) -> None:
+    def _log3(self, _environment: Any, status: int, _category: bytes, message: bytes) -> None:
         self.messages.append(f"{status} {message.decode()}")
 
-    def plan(self, start: float, stop: float | None) -> None:
+    def setup_experiment(self, start: float, stop: float | None) -> None:
         self.window = (start, stop)
         self.instance.setupExperiment(start, stop)
 
-    def enter(self) -> None:
+    def enter_initialization(self) -> None:
         start, stop = self.window
 
         def expected() -> None:
@@ -54,6 +54,6 @@ class Pair3(Pair):
 
         self.both(self.instance.enterInitializationMode, expected)
 
-    def read(self) -> None:
-        super().read()
+    def get_all(self) -> None:
+        super().get_all()
         assert self.instance.getFloat64([len(self.references)]) == [self.oracle.instance.time]

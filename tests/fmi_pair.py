@@ -47,7 +47,7 @@ class Oracle:
         if self.strict and self.phase not in phases:
             raise InputError("not now")
 
-    def enter(self, phase: int, needed: int) -> None:
+    def enter_phase(self, phase: int, needed: int) -> None:
         self.require(needed)
         self.phase = phase
 
@@ -74,12 +74,12 @@ class Pair:
             instanceName="pair",
         )
         self._callbacks = fmi2CallbackFunctions()
-        self._callbacks.logger = fmi2CallbackLoggerTYPE(self._hear)
+        self._callbacks.logger = fmi2CallbackLoggerTYPE(self._log)
         self._callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
         self._callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self.instance.instantiate(callbacks=self._callbacks, loggingOn=True)
 
-    def _hear(self, _environment: Any, _name: bytes, status: int, _category: bytes, message: bytes) -> None:
+    def _log(self, _environment: Any, _name: bytes, status: int, _category: bytes, message: bytes) -> None:
         self.messages.append(f"{status} {message.decode()}")
 
     def both(self, call: Callable[[], Any], expected: Callable[[], Any]) -> Any:
@@ -112,10 +112,10 @@ class Pair:
 
     # -- calls -----------------------------------------------------------------------------------
 
-    def renew(self) -> None:
+    def instantiate_again(self) -> None:
         """Free the instance, if it can with whatever states it has, and make another."""
         while self.states and not self.oracle.strict:
-            self.forget(0)
+            self.free_state(0)
         self.instance.freeInstance()
         self.states.clear()
         self.oracle.reset()
@@ -124,17 +124,17 @@ class Pair:
     def reset(self) -> None:
         self.both(self.instance.reset, self.oracle.reset)
 
-    def plan(self, start: float, stop: float | None) -> None:
+    def setup_experiment(self, start: float, stop: float | None) -> None:
         def expected() -> None:
             self.oracle.require(0)
             self.oracle.instance.setup_experiment(start, stop)
 
         self.both(lambda: self.instance.setupExperiment(startTime=start, stopTime=stop), expected)
 
-    def enter(self) -> None:
-        self.both(self.instance.enterInitializationMode, lambda: self.oracle.enter(1, 0))
+    def enter_initialization(self) -> None:
+        self.both(self.instance.enterInitializationMode, lambda: self.oracle.enter_phase(1, 0))
 
-    def begin(self) -> None:
+    def exit_initialization(self) -> None:
         def expected() -> None:
             self.oracle.require(1)
             self.oracle.instance.exit_initialization()
@@ -143,9 +143,9 @@ class Pair:
         self.both(self.instance.exitInitializationMode, expected)
 
     def terminate(self) -> None:
-        self.both(self.instance.terminate, lambda: self.oracle.enter(3, 2))
+        self.both(self.instance.terminate, lambda: self.oracle.enter_phase(3, 2))
 
-    def step(self, dt: float, late: float = 0.0) -> None:
+    def do_step(self, dt: float, late: float = 0.0) -> None:
         time = self.oracle.instance.time + late
 
         def expected() -> None:
@@ -154,7 +154,7 @@ class Pair:
 
         self.both(lambda: self.instance.doStep(time, dt), expected)
 
-    def put(self, names: Sequence[str], values: Sequence[float]) -> None:
+    def set_reals(self, names: Sequence[str], values: Sequence[float]) -> None:
         """Set real values."""
         references = [self.references[name] for name in names]
 
@@ -164,7 +164,7 @@ class Pair:
 
         self.both(lambda: self.instance.setReal(references, values), expected)
 
-    def switch(self, name: str, value: bool) -> None:
+    def set_boolean(self, name: str, value: bool) -> None:
         """Set a boolean value."""
         reference = [self.references[name]]
 
@@ -174,7 +174,7 @@ class Pair:
 
         self.both(lambda: self.instance.setBoolean(reference, [value]), expected)
 
-    def read(self) -> None:
+    def get_all(self) -> None:
         """Read every variable; outputs come last, so that a refusal of theirs is one of the others as well."""
         for kind, getter in (("real", "Real"), ("integer", "Integer"), ("boolean", "Boolean")):
             chosen = [place for place, one in enumerate(self.oracle.interface.variables) if one.kind == kind]
@@ -183,17 +183,17 @@ class Pair:
             assert found is None or list(found[0]) == list(found[1])
             assert found is None or all(math.isfinite(value) for value in found[0])
 
-    def read_nonsense(self, reference: int) -> None:
+    def get_any_reference(self, reference: int) -> None:
         """Read by a reference that may not exist, as every type in turn."""
         for kind in ("real", "integer", "boolean"):
             getter = getattr(self.instance, f"get{kind.capitalize()}")
             self.both(partial(getter, [reference]), partial(self.oracle.instance.get_values, kind, [reference]))
 
-    def save(self) -> None:
+    def save_state(self) -> None:
         found = self.both(self.instance.getFMUState, lambda: self.oracle.instance.save_state("one"))
         self.states.append((*found, self.oracle.phase))
 
-    def restore(self, place: int, serialized: bool) -> None:
+    def restore_state(self, place: int, serialized: bool) -> None:
         """Restore a saved state, if wanted from its bytes."""
         if not self.states:
             return
@@ -206,7 +206,7 @@ class Pair:
             self.both(lambda: self.instance.setFMUState(state), lambda: self.oracle.instance.restore_state(expected, "one"))
         self.oracle.phase = phase
 
-    def forget(self, place: int) -> None:
+    def free_state(self, place: int) -> None:
         """Free a saved state."""
         if self.states:
             state, _, _ = self.states.pop(place % len(self.states))
@@ -215,10 +215,10 @@ class Pair:
     def start(self, values: dict[str, float]) -> None:
         """From anywhere to a run that steps."""
         self.reset()
-        self.plan(0.0, None)
-        self.put(list(values), list(values.values()))
-        self.enter()
-        self.begin()
+        self.setup_experiment(0.0, None)
+        self.set_reals(list(values), list(values.values()))
+        self.enter_initialization()
+        self.exit_initialization()
 
 
 # A shaft of one metre, so that a call takes microseconds.
@@ -235,18 +235,19 @@ def random_call(pair: Pair, random: random.Random) -> None:
         pair.start(SMALL)
     kinds = [
         (40, lambda: _move(pair, random)),
-        (20, lambda: pair.step(random.choice(STEPS[:6]))),
-        (12, pair.read),
+        (20, lambda: pair.do_step(random.choice(STEPS[:6]))),
+        (12, pair.get_all),
         (3, lambda: pair.start(SMALL)),
-        (4, pair.save),
-        (5, lambda: pair.restore(random.randrange(9), random.random() < 0.5)),
-        (3, lambda: pair.forget(random.randrange(9))),
-        (2, lambda: pair.step(random.choice(STEPS), random.choice((0.0, 0.0, 1.0, -0.01, math.nan)))),
+        (4, pair.save_state),
+        (5, lambda: pair.restore_state(random.randrange(9), random.random() < 0.5)),
+        (3, lambda: pair.free_state(random.randrange(9))),
+        (2, lambda: pair.do_step(random.choice(STEPS), random.choice((0.0, 0.0, 1.0, -0.01, math.nan)))),
         (4, lambda: _set_any(pair, random)),
-        (1, lambda: pair.read_nonsense(random.choice((0, 5, 60, 70, 100, 2**32 - 1)))),
-        (1, lambda: pair.switch(random.choice(("derivative_inputs", "inputs_at_end")), random.random() < 0.5)),
-        (1, pair.enter), (1, pair.begin), (1, pair.terminate), (1, pair.reset), (1, pair.renew),
-        (1, lambda: pair.plan(random.choice((0.0, 5.0)), random.choice((None, 5.1)))),
+        (1, lambda: pair.get_any_reference(random.choice((0, 5, 60, 70, 100, 2**32 - 1)))),
+        (1, lambda: pair.set_boolean(random.choice(("derivative_inputs", "inputs_at_end")), random.random() < 0.5)),
+        (1, pair.enter_initialization), (1, pair.exit_initialization), (1, pair.terminate), (1, pair.reset),
+        (1, pair.instantiate_again),
+        (1, lambda: pair.setup_experiment(random.choice((0.0, 5.0)), random.choice((None, 5.1)))),
     ]  # fmt: skip
     random.choices([call for _, call in kinds], [weight for weight, _ in kinds])[0]()
 
@@ -257,8 +258,8 @@ def _move(pair: Pair, random: random.Random) -> None:
         "real", [pair.references[name] for name in ("car_position", "counterweight_position")]
     )
     moved = [float(value) + random.uniform(-0.01, 0.01) for value in values]
-    pair.put(["car_position", "counterweight_position"], moved)
-    pair.step(random.choice(STEPS[:6]))
+    pair.set_reals(["car_position", "counterweight_position"], moved)
+    pair.do_step(random.choice(STEPS[:6]))
 
 
 def _set_any(pair: Pair, random: random.Random) -> None:
@@ -271,4 +272,4 @@ def _set_any(pair: Pair, random: random.Random) -> None:
         value = (
             float(one.start or low) if small else random.choice((low, high, random.uniform(low, high), float(one.start or 0.0)))
         )
-    pair.put([one.name], [value])
+    pair.set_reals([one.name], [value])

@@ -116,21 +116,21 @@ def test_same_bits_as_just_in_time(pair: Pair, values: dict[str, float], switche
     """On one machine: the library's sine is the same, and no sum is reordered for wider vector units."""
     top = values.get("shaft.height", 50.0)
     for name, value in zip(("derivative_inputs", "inputs_at_end"), switches, strict=True):
-        pair.switch(name, value)
-    pair.put(list(values), list(values.values()))
-    pair.enter()
-    pair.begin()
-    pair.read()
+        pair.set_boolean(name, value)
+    pair.set_reals(list(values), list(values.values()))
+    pair.enter_initialization()
+    pair.exit_initialization()
+    pair.get_all()
     time = 0.0
     for count in range(60):
         dt = (0.01, 0.013, 0.004)[count % 3]
         at = time + dt * switches[1]
         ends = {"position": (0.3 * at * at, top - 0.3 * at * at), "velocity": (0.6 * at, -0.6 * at), "acceleration": (0.6, -0.6)}
         for what, both in ends.items():
-            pair.put([f"car_{what}", f"counterweight_{what}"], both)
-        pair.step(dt)
+            pair.set_reals([f"car_{what}", f"counterweight_{what}"], both)
+        pair.do_step(dt)
         time += dt
-    pair.read()
+    pair.get_all()
     assert pair.refusals == 0
 
 
@@ -164,9 +164,9 @@ def test_the_reference_result_inside_is_met(fmu: Path, tmp_path: Path) -> None:
     ],
 )  # fmt: skip
 def test_impossible_values_are_told(pair: Pair, values: dict[str, float], sentence: str) -> None:
-    pair.put(list(values), list(values.values()))
-    pair.enter()
-    pair.begin()
+    pair.set_reals(list(values), list(values.values()))
+    pair.enter_initialization()
+    pair.exit_initialization()
     assert pair.refusals == 1 and sentence in pair.messages[0]
     assert pair.messages[0].startswith("3 CompensationRope 'pair' at t = 0 s: ")
 
@@ -180,21 +180,21 @@ def test_a_lost_step_says_where_and_when(pair: Pair) -> None:
         }
     )  # fmt: skip
     while not pair.oracle.instance.failure and pair.oracle.instance.time < 1.0:
-        pair.step(0.01)
+        pair.do_step(0.01)
     assert re.search(r"the time step at t = 0\.\d+ s did not converge .* worst at .*, height", pair.messages[0])
-    pair.step(0.01)
+    pair.do_step(0.01)
     assert "no steps and outputs after an error, unless reset or restored; the error was: the time step" in pair.messages[0]
 
 
 def test_a_failed_run_can_be_taken_back(pair: Pair) -> None:
     pair.start({})
-    pair.save()
-    pair.put(["car_position"], [2000.0])
-    pair.step(0.01)
+    pair.save_state()
+    pair.set_reals(["car_position"], [2000.0])
+    pair.do_step(0.01)
     assert pair.refusals == 1
-    pair.restore(0, serialized=True)
-    pair.step(0.01)
-    pair.read()
+    pair.restore_state(0, serialized=True)
+    pair.do_step(0.01)
+    pair.get_all()
     assert pair.refusals == 1
 
 
@@ -318,9 +318,9 @@ brush = {"effects.pit_brush.damping": 20.0, "effects.pit_brush.top": 30.0, "effe
 own = {"effects.rail_joints.kick": 0.02, "effects.pit_spring.stiffness": 1e4, "effects.root.size": 10.0}
 pair.start(brush | own | {"rope.element_length": 0.2})
 for k in range(1, 31):
-    pair.put(["car_position", "counterweight_position"], [1e-4 * k * k, 50.0 - 1e-4 * k * k])
-    pair.step(0.01)
-    pair.read()
+    pair.set_reals(["car_position", "counterweight_position"], [1e-4 * k * k, 50.0 - 1e-4 * k * k])
+    pair.do_step(0.01)
+    pair.get_all()
 assert pair.refusals == 0
 """
 

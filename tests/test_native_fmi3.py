@@ -124,10 +124,10 @@ print(" ".join(value.hex() for value in slave.getFloat64(reals)))
 def test_a_state_goes_on_in_another_process(pair: Pair3, fmu: Path, tmp_path: Path) -> None:
     pair.start(SMALL)
     for k in range(20):
-        pair.put(["car_position", "counterweight_position"], [1e-4 * k * k, 1.0 - 1e-4 * k * k])
-        pair.step(0.01)
+        pair.set_reals(["car_position", "counterweight_position"], [1e-4 * k * k, 1.0 - 1e-4 * k * k])
+        pair.do_step(0.01)
     (tmp_path / "state").write_bytes(pair.instance.serializeFMUState(pair.instance.getFMUState()))
-    pair.step(0.01)
+    pair.do_step(0.01)
     reals = [one.valueReference for one in pair.description.modelVariables if one.type == "Float64"]
     command = [sys.executable, "-c", APART, str(fmu), str(tmp_path / "state")]
     root = Path(__file__).parent.parent
@@ -157,14 +157,14 @@ WRONG: dict[str, tuple[Callable[[Any], Any], str]] = {
 def test_a_wrong_call_is_told_and_can_be_taken_back(pair: Pair3, what: str) -> None:
     call, sentence = WRONG[what]
     pair.start(SMALL)
-    pair.step(0.01)
-    pair.save()
+    pair.do_step(0.01)
+    pair.save_state()
     with pytest.raises(FMICallException):
         call(pair.instance)
     assert sentence in pair.messages[0]
-    pair.restore(0, serialized=False)
-    pair.step(0.01)
-    pair.read()
+    pair.restore_state(0, serialized=False)
+    pair.do_step(0.01)
+    pair.get_all()
 
 
 @pytest.mark.parametrize(

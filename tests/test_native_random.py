@@ -34,54 +34,54 @@ class Calls(RuleBasedStateMachine):
 
     @initialize()
     def small(self) -> None:
-        self.pair.put(list(SMALL), list(SMALL.values()))
+        self.pair.set_reals(list(SMALL), list(SMALL.values()))
 
     @rule(start=st.sampled_from((0.0, 5.0)), stop=st.sampled_from((None, 5.1)))
     def plan(self, start: float, stop: float | None) -> None:
-        self.pair.plan(start, stop)
+        self.pair.setup_experiment(start, stop)
 
     @rule()
     def enter(self) -> None:
-        self.pair.enter()
+        self.pair.enter_initialization()
 
     @rule()
     def begin(self) -> None:
-        self.pair.begin()
+        self.pair.exit_initialization()
 
     @rule(dt=st.sampled_from(STEPS), late=st.sampled_from((0.0, 0.0, 0.0, 1.0)))
     def step(self, dt: float, late: float) -> None:
-        self.pair.step(dt, late)
+        self.pair.do_step(dt, late)
 
     @precondition(lambda self: self.pair.oracle.phase == 2)
     @rule(car=st.floats(-0.01, 0.01), steps=st.integers(1, 5))
     def move(self, car: float, steps: int) -> None:
-        self.pair.put(["car_position", "counterweight_position"], [car, 1.0 - car])
+        self.pair.set_reals(["car_position", "counterweight_position"], [car, 1.0 - car])
         for _ in range(steps):
-            self.pair.step(0.01)
+            self.pair.do_step(0.01)
 
     @rule(name=NAMES.filter(lambda name: name not in MESH), value=NUMBERS)
     def put(self, name: str, value: float) -> None:
-        self.pair.put([name], [value])
+        self.pair.set_reals([name], [value])
 
     @rule(name=st.sampled_from(("derivative_inputs", "inputs_at_end")), value=st.booleans())
     def switch(self, name: str, value: bool) -> None:
-        self.pair.switch(name, value)
+        self.pair.set_boolean(name, value)
 
     @rule()
     def read(self) -> None:
-        self.pair.read()
+        self.pair.get_all()
 
     @rule(reference=st.integers(0, 2**32 - 1))
     def read_nonsense(self, reference: int) -> None:
-        self.pair.read_nonsense(reference)
+        self.pair.get_any_reference(reference)
 
     @rule()
     def save(self) -> None:
-        self.pair.save()
+        self.pair.save_state()
 
     @rule(place=st.integers(0, 9), serialized=st.booleans())
     def restore(self, place: int, serialized: bool) -> None:
-        self.pair.restore(place, serialized)
+        self.pair.restore_state(place, serialized)
 
     @rule()
     def terminate(self) -> None:

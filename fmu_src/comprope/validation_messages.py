@@ -12,12 +12,12 @@ from .quantities import quantities
 Location = Sequence[str | int]
 
 
-def problems(error: ValidationError, component: type[BaseModel]) -> list[str]:
+def validation_problems(error: ValidationError, component: type[BaseModel]) -> list[str]:
     """One line `<key> = <value>: <what is accepted>` for each problem found by the validation of `component`."""
     return [_sentence(component, dict(item)) for item in error.errors(include_url=False)]
 
 
-def key_text(location: Location) -> str:
+def dotted_key(location: Location) -> str:
     """The location of a value as a dotted key; list indices start at 1, as in `sensors[1].height`."""
     text = ""
     for part in location:
@@ -50,15 +50,16 @@ def suggestion(unknown: str, known: Sequence[str]) -> str:
 
 def _sentence(component: type[BaseModel], item: dict[str, Any]) -> str:
     location, kind = item["loc"], item["type"]
-    key = key_text(location)
+    key = dotted_key(location)
     if kind == "value_error":
         return f"{key}: {item['ctx']['error']}" if key else str(item["ctx"]["error"])
     owner = _component_at(component, location[:-1])
     last = location[-1] if location else None
     if kind == "extra_forbidden":
-        return f"{key}{_shown(item['input'])}: unknown key; {suggestion(str(last), list(owner.model_fields) if owner else [])}"
+        known = list(owner.model_fields) if owner else []
+        return f"{key}{_value_text(item['input'])}: unknown key; {suggestion(str(last), known)}"
     wanted = accepted(owner, last) if owner and isinstance(last, str) else _item_accepted(component, item)
-    return f"{key}: missing; {wanted}" if kind == "missing" else f"{key}{_shown(item['input'])}: {wanted}"
+    return f"{key}: missing; {wanted}" if kind == "missing" else f"{key}{_value_text(item['input'])}: {wanted}"
 
 
 def _item_accepted(component: type[BaseModel], item: dict[str, Any]) -> str:
@@ -66,7 +67,7 @@ def _item_accepted(component: type[BaseModel], item: dict[str, Any]) -> str:
     return f"a table with the keys {', '.join(nested.model_fields)} is accepted" if nested else str(item["msg"])
 
 
-def _shown(value: Any) -> str:
+def _value_text(value: Any) -> str:
     """` = value` in TOML notation; empty for a table, which is long."""
     if isinstance(value, dict):
         return ""

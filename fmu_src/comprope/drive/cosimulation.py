@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from ..errors import InputError
 from ..fmi.model_interface import ModelInterface, Variable, parameters_of
-from ..validation_messages import problems
+from ..validation_messages import validation_problems
 from .hoist_dynamics import holding_force
 from .parameters import Drive
 from .simulator import DriveSimulator, compensation_forces, input_problems
@@ -81,7 +81,7 @@ def drive_from_parameters(parameters: Mapping[str, Any]) -> Drive:
     try:
         return Drive.model_validate(tables)
     except ValidationError as error:
-        raise InputError("; ".join(problems(error, Drive))) from None
+        raise InputError("; ".join(validation_problems(error, Drive))) from None
 
 
 def _start_problems(drive: Drive, start_time: float) -> list[str]:

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from ..atomic_files import atomic_write, read_text_file
 from ..errors import InputError
-from ..validation_messages import problems
+from ..validation_messages import validation_problems
 from .effects import RopeModel, model_type, user_effects
 
 _NO_KEY = "not the key of a single value in this model, such as sheave.mass or sensors[1].height"
@@ -76,7 +76,7 @@ def validated(table: Mapping[str, Any], source: str) -> RopeModel:
     try:
         return kind.model_validate(_frozen(table))
     except ValidationError as error:
-        raise InputError("\n".join(f"{source}: {line}" for line in problems(error, kind))) from None
+        raise InputError("\n".join(f"{source}: {line}" for line in validation_problems(error, kind))) from None
 
 
 def as_table(model: RopeModel) -> dict[str, Any]:

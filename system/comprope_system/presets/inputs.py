@@ -10,7 +10,7 @@ from comprope.drive.parameters import Drive
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, read_toml, with_changes
-from comprope.validation_messages import problems
+from comprope.validation_messages import validation_problems
 
 from . import drive_path, model_path
 from .overrides import Changes, by_key
@@ -53,4 +53,4 @@ def _validated(table: Mapping[str, Any], source: str) -> Drive:
     try:
         return Drive.model_validate(table)
     except ValidationError as error:
-        raise InputError("\n".join(f"{source}: {line}" for line in problems(error, Drive))) from None
+        raise InputError("\n".join(f"{source}: {line}" for line in validation_problems(error, Drive))) from None

@@ -15,7 +15,7 @@ from comprope.errors import InputError
 from comprope.quantities import Component
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, read_toml, with_changes
-from comprope.validation_messages import problems
+from comprope.validation_messages import validation_problems
 
 from ...measurements import Trip
 from ...measurements.run_table import UNITS, read_table, read_trips
@@ -134,7 +134,7 @@ def _campaign_file(path: Path) -> CampaignFile:
         table = {key: tuple(value) if isinstance(value, list) else value for key, value in read_toml(path).items()}
         return CampaignFile.model_validate(table)
     except ValidationError as error:
-        raise InputError("\n".join(f"{path}: {line}" for line in problems(error, CampaignFile))) from None
+        raise InputError("\n".join(f"{path}: {line}" for line in validation_problems(error, CampaignFile))) from None
 
 
 def _channel_problems(path: Path, described: CampaignFile, model: RopeModel | None) -> list[str]:

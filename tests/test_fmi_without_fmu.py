@@ -1,4 +1,4 @@
-"""Runs, saved states, units and descriptions, without any FMU."""
+"""Instances, saved states, units and model descriptions, without any FMU."""
 
 import math
 import xml.etree.ElementTree as ET
@@ -237,12 +237,13 @@ def test_a_model_that_does_not_load_leaves_no_file(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_internal_errors_are_one_line_with_their_place() -> None:
+def test_an_internal_error_is_one_line_with_its_place() -> None:
     try:
         raise KeyError("two\nlines")
     except KeyError as error:
         text = error_reporting.sentence(error)
-    assert text.startswith("internal error: KeyError in test_internal_errors_are_one_line_with_their_place, test_fmi_run.py:")
+    place = "test_an_internal_error_is_one_line_with_its_place, test_fmi_without_fmu.py"
+    assert text.startswith(f"internal error: KeyError in {place}:")
     assert "\n" not in text
 
 
