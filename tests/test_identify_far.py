@@ -14,7 +14,7 @@ from comprope_system.identification.estimation.parameter_estimates import plant_
 from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect, instrument_hypotheses
 from comprope_system.identification.hypotheses.model_effects import shape_hypothesis
 from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
-from comprope_system.identification.model_updating.add_effect import prepare
+from comprope_system.identification.model_updating.add_effect import fit_baseline
 from comprope_system.identification.prediction.parameter_point import ParameterPoint
 from comprope_system.parallel.executors import threads
 
@@ -34,37 +34,37 @@ def executor():
 
 
 @pytest.fixture(scope="module")
-def ground(tmp_path_factory, executor):
+def baseline(tmp_path_factory, executor):
     """A light rope, a groove that runs 2 mm out of true, and a laser that shows a tenth too much."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(virtual_elevator.PLANT, "rope.mass_per_length", LIGHT)
         folder = virtual_elevator.campaign(tmp_path_factory.mktemp("far"), HIDDEN)
-    return prepare(load_campaign(folder), executor)
+    return fit_baseline(load_campaign(folder), executor)
 
 
-def test_an_effect_promises_more_from_the_mass_that_the_rope_has(ground):
+def test_an_effect_promises_more_from_the_mass_that_the_rope_has(baseline):
     """From the mass of the data sheet its trace is out of step with what is measured."""
-    looks = screen_at_other_masses(ground.problem, ParameterPoint(), ground.initial_fit)
+    looks = screen_at_other_masses(baseline.problem, ParameterPoint(), baseline.initial_fit)
     assert looks[0].hypothesis.effect == "sheave_eccentricity"
     assert np.log(LIGHT / 1.2) == pytest.approx(looks[0].start[MASS], abs=0.06)
-    assert looks[0].chi_square < 0.1 * ground.fitted.chi_square
+    assert looks[0].chi_square < 0.1 * baseline.fitted.chi_square
     assert looks == sorted(looks, key=lambda one: one.penalised_chi_square)
     assert len({one.hypothesis.effect for one in looks}) == len(looks)
 
 
-def test_two_effects_at_once_are_brought_into_step(ground):
+def test_two_effects_at_once_are_brought_into_step(baseline):
     """Both at their true size, on a rope of the data sheet's mass: another mass, and little else, takes all that is left."""
     runout = hypotheses_of_effect(REGISTRY["sheave_eccentricity"], ())[0]
-    gain = next(one for one in instrument_hypotheses(ground.campaign.channels) if one.directions[0].name == GAIN)
+    gain = next(one for one in instrument_hypotheses(baseline.campaign.channels) if one.directions[0].name == GAIN)
     share = HIDDEN[RUNOUT] / runout.directions[0].changes[RUNOUT]
     there = [share * np.cos(HIDDEN[PHASE]), share * np.sin(HIDDEN[PHASE]), 0.1 / gain.directions[0].changes[GAIN]]
     initial_fit = evaluate(
-        ground.problem, combine(runout, gain), np.array([*np.zeros(len(PLANT_PARAMETERS)), *there]), ParameterPoint()
+        baseline.problem, combine(runout, gain), np.array([*np.zeros(len(PLANT_PARAMETERS)), *there]), ParameterPoint()
     )
-    found = search_rope_mass(ground.problem, initial_fit, ParameterPoint())
-    assert initial_fit.chi_square > 50.0 * len(ground.problem.data)
-    assert found.chi_square < 1.3 * len(ground.problem.data)
-    assert plant_estimates(ground.campaign, found)["rope.mass_per_length"].value == pytest.approx(LIGHT, rel=0.01)
+    found = search_rope_mass(baseline.problem, initial_fit, ParameterPoint())
+    assert initial_fit.chi_square > 50.0 * len(baseline.problem.data)
+    assert found.chi_square < 1.3 * len(baseline.problem.data)
+    assert plant_estimates(baseline.campaign, found)["rope.mass_per_length"].value == pytest.approx(LIGHT, rel=0.01)
 
 
 def test_of_two_effects_that_look_alike_both_are_fitted(tmp_path, executor):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import comprope_system
 from comprope.rope.model_file import with_changes
 from comprope_system.identification.comparison.compare import compare
 from comprope_system.identification.comparison.nrmse import channel_error
@@ -10,7 +11,7 @@ from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.diagnose import diagnose
 from comprope_system.identification.estimation.parameter_estimates import plant_estimates
 from comprope_system.identification.hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
-from comprope_system.identification.model_updating.add_effect import add, prepare
+from comprope_system.identification.model_updating.add_effect import fit_baseline
 from comprope_system.identification.prediction.replay import instrument
 from comprope_system.parallel.executors import threads
 
@@ -38,7 +39,7 @@ def test_a_late_clock_is_found_and_is_no_effect(tmp_path, executor):
             table[name] = np.interp(table["time"] - LATE, table["time"], table[name])
         np.savetxt(folder / file, np.column_stack([table[name] for name in table.dtype.names]), delimiter=",", header=lines[0],
                    comments="", fmt="%.5f")  # fmt: skip
-    found = prepare(load_campaign(folder), executor).fitted
+    found = fit_baseline(load_campaign(folder), executor).fitted
     late = found.coefficients[[one.name for one in PLANT_PARAMETERS].index(CLOCK)]
     # A record of 9 s knows the instant to about a millisecond.
     assert abs(late - LATE) < 0.003
@@ -60,10 +61,10 @@ def turned(tmp_path_factory):
 def test_a_rope_of_quite_another_mass_is_no_effect(tmp_path, executor, monkeypatch, mass):
     """Its swings come out of step with the model's before a record ends, from where derivatives alone do not lead back."""
     monkeypatch.setitem(virtual_elevator.PLANT, "rope.mass_per_length", mass)
-    ground = prepare(load_campaign(virtual_elevator.campaign(tmp_path / "heavy", {})), executor)
-    assert ground.initial_fit.chi_square > 100.0 * len(ground.problem.data)
-    assert ground.fitted.chi_square < 1.2 * len(ground.problem.data)
-    assert plant_estimates(ground.campaign, ground.fitted)["rope.mass_per_length"].value == pytest.approx(mass, rel=0.005)
+    baseline = fit_baseline(load_campaign(virtual_elevator.campaign(tmp_path / "heavy", {})), executor)
+    assert baseline.initial_fit.chi_square > 100.0 * len(baseline.problem.data)
+    assert baseline.fitted.chi_square < 1.2 * len(baseline.problem.data)
+    assert plant_estimates(baseline.campaign, baseline.fitted)["rope.mass_per_length"].value == pytest.approx(mass, rel=0.005)
 
 
 def test_each_run_may_begin_with_another_angle_of_the_sheave(turned, executor):
@@ -79,10 +80,10 @@ def test_each_run_may_begin_with_another_angle_of_the_sheave(turned, executor):
 
 def test_added_the_effect_acts_in_each_run_from_its_own_angle_on(turned, executor):
     """The model file has one angle, single runs others; the size of a groove out of true is known far better than its angle."""
-    found = add(turned, "sheave_eccentricity", executor)
+    found = comprope_system.add(turned, "sheave_eccentricity", executor=executor)
     fitted = [(before, run) for before, run in zip(found.before.runs, found.after.runs, strict=True) if run.role == "fit"]
     assert all(run.nrmse < 0.1 * before.nrmse for before, run in fitted)
-    size = found.effects[RUNOUT]
+    size = found.parameters[RUNOUT]
     assert size.value == pytest.approx(2e-3, abs=5e-5) and size.standard_error < 5e-5
 
 

@@ -1,10 +1,10 @@
-"""Lateral vibration of elevator compensation ropes, for scripts and notebooks: simulate, modes, tune, design.
+"""Lateral vibration of elevator compensation ropes, for scripts and notebooks: simulate, compare, diagnose, improve, tune.
 
     import comprope_system
 
-    result = comprope_system.simulate("tower50", changes={"sheave.mass": 90.0})
+    result = comprope_system.compare("campaign")
     print(result.summary())
-    result.save_html("trip.html")
+    result.save_html("compare.html")
 
 Each function returns one result object with its fields, `summary()`, `to_json()`, `to_dataframe()` and `save_html(path)`; in a
 notebook it shows a short table. Functions print nothing and write nothing. Bad input raises `comprope.errors.InputError`, a
@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .identification.workflow import add, compare, diagnose, improve
     from .modal.workflow import modes
     from .sheave_design.workflow import BuildingSway, DesignOptions, design
     from .simulation.workflow import CarMotion, simulate
@@ -22,9 +23,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BuildingSway", "CarMotion", "DesignOptions", "TuningOptions",
-    "design", "modes", "simulate", "tune",
+    "add", "compare", "design", "diagnose", "improve", "modes", "simulate", "tune",
 ]  # fmt: skip
 _MODULES = {
+    "identification": ("add", "compare", "diagnose", "improve"),
     "modal": ("modes",),
     "sheave_design": ("BuildingSway", "DesignOptions", "design"),
     "simulation": ("CarMotion", "simulate"),

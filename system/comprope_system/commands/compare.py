@@ -1,21 +1,17 @@
 """`comprope compare`: a model against measurements."""
 
-from pathlib import Path
-from typing import Annotated
+import comprope_system
 
-import typer
-
-CAMPAIGN = Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml, or that file.")]
-JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result.")]
-REPORT = Annotated[Path | None, typer.Option(metavar="F.html", help="Write a page with pictures.")]
+from ._parameters import CAMPAIGN, JSON, REPORT
+from ._terminal import OutputFile, finish, progress_display, require_files
 
 
 def compare(campaign: CAMPAIGN, json: JSON = None, report: REPORT = None) -> None:
-    """Drive the model as the car was driven, and set it against each channel.
+    """Simulate the model with the measured car motion, and compute its error for each channel.
 
-    Errors are told for each run, channel and phase of the trip. Where the data themselves are odd, that is told too.
+    Errors by run, channel and phase of the trip; remarks on the quality of the data.
     """
-    from ..identification.workflow import Request
-    from ..identification.workflow import compare as run
-
-    run(Request(campaign, json, report))
+    require_files(OutputFile(json), OutputFile(report, "page"))
+    with progress_display() as progress:
+        result = comprope_system.compare(campaign, progress=progress)
+    finish(result, (json, result.save_json), (report, result.save_html))

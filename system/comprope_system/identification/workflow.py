@@ -1,194 +1,119 @@
-"""What the commands compare, diagnose, add and journey do: read, compute, print, write."""
+"""The public functions `comprope_system.compare`, `diagnose`, `add` and `improve`."""
 
-import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Sequence
+from concurrent.futures import Executor
 from pathlib import Path
-from typing import Any
-
-from rich.console import Console
-from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-from comprope.atomic_files import require_writable
-from comprope.rope.model_file import dump
 
 from ..parallel.executors import processes, threads
-from ..report.json_output import save_json
+from ..parallel.progress import Progress, no_progress
+from .comparison.compare import compare as compare_with_model
+from .comparison.data_quality import remarks
 from .data.campaign import Campaign, load_campaign
+from .diagnosis.diagnose import diagnose as rank_effects
+from .diagnosis.experiment_design import is_inconclusive, rank_candidate_runs
+from .diagnosis.held_out_validation import validate
+from .hypotheses.model_effects import effect_values, hypotheses_named, require_effects
+from .model_updating.add_effect import add_effect
+from .model_updating.stepwise_selection import select_stepwise
+from .prediction.parameter_point import ParameterPoint
 from .progress import ProgressCallback
-from .reporting import formatting, sentences, tables
+from .residuals.input_estimation import estimate_residual_force
+from .residuals.residual_correlation import residual_correlations, rest_ratio_of
+from .results.comparison import ComparisonResult
+from .results.diagnosis import DiagnosisResult
+from .results.updating import AddResult, ImproveResult
+from .settings import MODEL_UPDATING
+
+CampaignInput = str | Path | Campaign
 
 
-@dataclass(frozen=True)
-class Request:
-    """The campaign's folder, files to write, processes (all cores if None), and effects that a diagnosis rules out."""
+def compare(
+    campaign: CampaignInput, *, executor: Executor | str | None = None, progress: Progress = no_progress
+) -> ComparisonResult:
+    """Simulate the model with the measured car motion, and compute its error for each run and channel.
 
-    campaign: Path
-    json: Path | None = None
-    report: Path | None = None
-    model: Path | None = None
-    jobs: int | None = None
-    without: tuple[str, ...] = ()
-
-
-def compare(request: Request) -> Any:
-    """`comprope compare`."""
-    from .comparison.compare import compare as comparison_of
-    from .comparison.data_quality import remarks
-
-    campaign = _begin(request)
-    with progress_display() as report_progress, threads() as executor:
-        report_progress("driving the model as the car was driven")
-        found = comparison_of(campaign, executor)
-    told = remarks(campaign, found.predictions)
-    errors = formatting.plain_table(tables.error_table(found))
-    _tell(formatting.wrapped(sentences.compared(found)), errors, _listed("About the data:", told))
-    if request.json:
-        save_json(request.json, found.to_json() | {"remarks": told})
-    if request.report:
-        from .reporting.html_pages import save_comparison
-
-        save_comparison(request.report, found, told)
-    _end(request)
-    return found
+    `campaign` is a folder with campaign.toml, that file, or a `Campaign`. Runs on `executor` (of concurrent.futures, or
+    "dask://HOST:PORT"), else on threads of this process. Raises `InputError` with every problem of the campaign's files,
+    `SimulationError` where a run cannot be simulated.
+    """
+    loaded = _loaded(campaign)
+    with threads(executor) as workers:
+        progress("simulating the runs", 0, 0)
+        found = compare_with_model(loaded, workers)
+    return ComparisonResult(found, tuple(remarks(loaded, found.predictions)))
 
 
-def diagnose(request: Request) -> Any:
-    """`comprope diagnose`."""
-    from .diagnosis.diagnose import diagnose as diagnosis_of
-    from .diagnosis.experiment_design import is_inconclusive, rank_candidate_runs
-    from .diagnosis.held_out_validation import to_json, validate
-    from .hypotheses.model_effects import effect_values, require_effects
-    from .prediction.parameter_point import ParameterPoint
-    from .residuals.input_estimation import estimate_residual_force
-    from .residuals.residual_correlation import residual_correlations, rest_ratio_of
+def diagnose(
+    campaign: CampaignInput,
+    *,
+    without: Sequence[str] = (),
+    executor: Executor | str | None = None,
+    jobs: int | None = 1,
+    progress: Progress = no_progress,
+) -> DiagnosisResult:
+    """Identify the physical effect that is missing from the model, with its probability.
 
-    campaign = _begin(request)
-    require_effects(request.without)
-    base = ParameterPoint(effects=effect_values(campaign.model))
-    with progress_display() as report_progress, processes(request.jobs) as executor:
-        found = diagnosis_of(campaign, executor, report_progress, base, request.without)
-        report_progress("the runs held out")
-        validated = validate(found, executor, base)
-        report_progress("the next run to measure")
-        proposals = rank_candidate_runs(found, executor) if is_inconclusive(found) else []
-        force = (
-            estimate_residual_force(found.problem, found.baseline, report_progress) if found.kind == "unknown_effect" else None
-        )
-    left = [] if found.kind == "adequate" else residual_correlations(campaign, validated.refitted.predictions)
-    rest_ratio = rest_ratio_of(campaign, validated.refitted.predictions)
-    _tell(*_diagnosed(validated, left, rest_ratio, force, proposals))
-    if request.json:
-        correlations_of = [{"coordinate": one.coordinate, "share": one.share, "peak": one.peak} for one in left]
-        told = {"clues": correlations_of, "next_runs": [one.to_json() for one in proposals[:5]]}
-        save_json(request.json, to_json(validated) | told | ({"residual_force": force.to_json()} if force else {}))
-    if request.report:
-        from .reporting.html_pages import save_diagnosis
-
-        save_diagnosis(request.report, validated, left, rest_ratio, force, proposals)
-    _end(request)
-    return validated
+    Every known effect but those in `without` is fitted on the fit runs; validation runs are used for neither fit nor ranking.
+    `campaign` is a folder with campaign.toml, that file, or a `Campaign`. Runs on `executor` (of concurrent.futures, or
+    "dask://HOST:PORT"), else on `jobs` processes, 1 being this one and None one for each core; it takes minutes. Raises
+    `InputError` for problems of the campaign's files or an unknown effect, `SimulationError` where the model cannot be simulated.
+    """
+    loaded, report = _loaded(campaign), _stages(progress)
+    require_effects(without)
+    base = ParameterPoint(effects=effect_values(loaded.model))
+    with processes(jobs, executor) as workers:
+        found = rank_effects(loaded, workers, report, base, without)
+        report("validating on the runs held out")
+        validated = validate(found, workers, base)
+        report("proposing the next run")
+        next_runs = rank_candidate_runs(found, workers) if is_inconclusive(found) else []
+        unknown = found.kind == "unknown_effect"
+        force = estimate_residual_force(found.problem, found.baseline, report) if unknown else None
+    residual = validated.refitted.predictions
+    correlations = [] if found.kind == "adequate" else residual_correlations(loaded, residual)
+    return DiagnosisResult(validated, tuple(correlations), rest_ratio_of(loaded, residual), force, tuple(next_runs))
 
 
-def _diagnosed(
-    validated: Any, left: Sequence[Any], rest_ratio: float, force: Any, proposals: Sequence[Any]
-) -> Iterator[list[str]]:
-    """What is printed of a diagnosis, paragraph by paragraph."""
-    from .diagnosis.held_out_validation import full_name
-    from .residuals.residual_correlation import correlation_sentences
+def add(
+    campaign: CampaignInput,
+    effect: str,
+    *,
+    executor: Executor | str | None = None,
+    jobs: int | None = 1,
+    progress: Progress = no_progress,
+) -> AddResult:
+    """Add an effect to the model of a campaign, fitted on its fit runs together with the plant parameters.
 
-    found = validated.diagnosis
-    yield formatting.wrapped(*sentences.verdict(validated))
-    yield formatting.plain_table(tables.ranking_table(validated, tables.SHOWN))
-    yield _listed("About the data:", validated.remarks)
-    if found.kind == "unknown_effect":
-        yield _listed("What is left:", correlation_sentences(list(left), rest_ratio))
-    if force:
-        yield [*formatting.wrapped(f"{force.sentence()}."), *formatting.plain_table(tables.force_table(force, tables.SHOWN))]
-    if proposals:
-        yield [f"Next run to measure: {proposals[0].sentence()}."]
-    if found.verdict:
-        command = "comprope --allow-code add" if found.campaign.model.own_effects else "comprope add"
-        yield [f"To add it: {command} {found.campaign.folder} {full_name(found.ranking[0].hypothesis)} --out MODEL.toml"]
+    `effect` is a name such as "air_drag", an instrument's with its channel as "sensor_gain.cw_low"; an effect that the model has
+    already is refitted. Other arguments and errors as for `diagnose`.
+    """
+    loaded = _loaded(campaign)
+    hypotheses_named(effect, loaded, ())
+    with processes(jobs, executor) as workers:
+        return AddResult(add_effect(loaded, effect, workers, _stages(progress)))
 
 
-def add(request: Request, effect: str) -> Any:
-    """`comprope add`."""
-    from .hypotheses.model_effects import hypotheses_named
-    from .model_updating.add_effect import add as add_to
-    from .model_updating.add_effect import heading
+def improve(
+    campaign: CampaignInput,
+    *,
+    max_effects: int = MODEL_UPDATING.max_effects,
+    executor: Executor | str | None = None,
+    jobs: int | None = 1,
+    progress: Progress = no_progress,
+) -> ImproveResult:
+    """Diagnose and add until nothing is missing or no known effect helps (stepwise selection), then remove what is not needed.
 
-    campaign = _begin(request)
-    hypotheses_named(effect, campaign, ())
-    with progress_display() as report_progress, processes(request.jobs) as executor:
-        found = add_to(campaign, effect, executor, report_progress)
-    stages = {"as it stood": found.before, "plant refitted": found.refitted, "with it": found.after}
-    _tell(
-        formatting.wrapped(sentences.added(found)),
-        formatting.plain_table(tables.fall_table(stages)),
-        formatting.plain_table(tables.value_table(found.effects)),
-    )
-    if request.model:
-        dump(found.model, request.model, heading(found))
-    if request.json:
-        save_json(request.json, found.to_json())
-    if request.report:
-        from .reporting.html_pages import save_added
-
-        save_added(request.report, found)
-    _end(request)
-    return found
+    At most `max_effects` are added. Other arguments and errors as for `diagnose`.
+    """
+    loaded = _loaded(campaign)
+    with processes(jobs, executor) as workers:
+        return ImproveResult(select_stepwise(loaded, workers, _stages(progress), max_effects))
 
 
-def journey(request: Request) -> Any:
-    """`comprope journey`."""
-    from .model_updating.add_effect import heading
-    from .model_updating.stepwise_selection import journey as travel
-
-    campaign = _begin(request)
-    with progress_display() as report_progress, processes(request.jobs) as executor:
-        found = travel(campaign, executor, report_progress)
-    told = (tables.bought_table(found), tables.value_table(found.added.effects))
-    _tell(formatting.wrapped(sentences.travelled(found)), *map(formatting.plain_table, told))
-    if request.model:
-        dump(found.model, request.model, heading(found.added))
-    if request.json:
-        save_json(request.json, found.to_json())
-    if request.report:
-        from .reporting.html_pages import save_journey
-
-        save_journey(request.report, found)
-    _end(request)
-    return found
+def _loaded(campaign: CampaignInput) -> Campaign:
+    return campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
 
 
-def _begin(request: Request) -> Campaign:
-    """Refuse files that could not be written, then read the campaign."""
-    for path, kind in ((request.json, None), (request.model, None), (request.report, "page")):
-        if path:
-            require_writable(path, kind)
-    return load_campaign(request.campaign)
-
-
-def _end(request: Request) -> None:
-    _tell([f"written {path}" for path in (request.model, request.json, request.report) if path])
-
-
-def _listed(title: str, items: Sequence[str]) -> list[str]:
-    return [title, *(f"  {item}" for item in items)] if items else []
-
-
-def _tell(*paragraphs: list[str]) -> None:
-    told = ["\n".join(lines) for lines in paragraphs if lines]
-    sys.stdout.write("".join(f"{text}\n\n" for text in told))
-
-
-@contextmanager
-def progress_display() -> Iterator[ProgressCallback]:
-    """On a terminal, what is being done and for how long."""
-    console = Console(file=sys.stderr)
-    parts = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
-    with Progress(*parts, console=console, transient=True, disable=not console.is_terminal) as bar:
-        task = bar.add_task("starting", total=None)
-        yield lambda text: bar.update(task, description=text)
+def _stages(progress: Progress) -> ProgressCallback:
+    """Progress by the name of each stage, whose number of steps is unknown."""
+    return lambda stage: progress(stage, 0, 0)

@@ -1,7 +1,7 @@
-"""The model driven by the measured car position, set against each channel: how far off, and where.
+"""Residuals of the model, driven by the measured car position, for each channel: how large, and where.
 
-All errors are root mean squares over the standard deviation of the measured channel in its run, so that
-the errors of phases, places and bands may be compared with each other and with the whole.
+Errors are normalised: root mean square of the residual over the standard deviation of the measured channel in its run, so that
+those of phases, positions and frequency bands may be compared with each other and with the whole (NRMSE).
 """
 
 from collections.abc import Mapping
@@ -30,8 +30,9 @@ Floats = NDArray[np.float64]
 class ChannelComparison:
     """One channel of one run. `time` (n,) [s], `measured` and `predicted` (n,) [SI] where both exist.
 
-    `rmse` [SI]; `chi_square` is the mean square of the residual over the noise's; errors by phase, place and band are
-    shares of the measured variation; `orders` (k,) are amplitudes [SI] at `measures.ORDERS`.
+    `nrmse` is `rmse` [SI] over the standard deviation of `measured`, as are the errors by phase, car position and frequency
+    band; `reduced_chi_square` is the mean square of the residual over the variance of the noise; `orders` (k,) are amplitudes
+    [SI] at `error_metrics.ORDERS`.
     """
 
     column: str
@@ -42,7 +43,7 @@ class ChannelComparison:
     nrmse: float
     rmse: float
     noise: float
-    chi_square: float
+    reduced_chi_square: float
     sprague_geers: SpragueGeers
     by_phase: dict[str, float]
     by_place: Floats
@@ -60,7 +61,8 @@ class ChannelComparison:
         peaks = {f"{order:g}": float(np.interp(order, ORDERS, self.orders)) / scale for order in (0.5, 1.0, 2.0, 3.0, 4.0)}
         found = {
             "column": self.column, "unit": self.channel.unit, "nrmse": self.nrmse, "rmse": self.rmse / scale,
-            "samples": len(self.time), "noise": self.noise / scale, "chi_square_per_sample": self.chi_square,
+            "samples": len(self.time), "noise": self.noise / scale, "reduced_chi_square": self.reduced_chi_square,
+            "chi_square_per_sample": self.reduced_chi_square,
             "sprague_geers": asdict(self.sprague_geers) | {"combined": self.sprague_geers.combined},
             "by_phase": self.by_phase,
             "by_car_position": list(self.by_place),
@@ -90,7 +92,7 @@ class RunComparison:
 
 @dataclass(frozen=True)
 class Comparison:
-    """A campaign beside its model: runs, and the error of all channels of all runs, of fit runs, and of validate runs."""
+    """A campaign beside its model: runs, and the NRMSE of all channels of all runs, of fit runs, and of validation runs."""
 
     campaign: Campaign
     predictions: Predictions
@@ -100,13 +102,13 @@ class Comparison:
     validate_nrmse: float
 
     @property
-    def chi_square(self) -> float:
-        """Mean chi-square per sample over channels and runs: near 1, noise is all there is."""
-        known = [one.chi_square for run in self.runs for one in run.channels if np.isfinite(one.chi_square)]
+    def reduced_chi_square(self) -> float:
+        """Mean over channels and runs of the reduced chi-square: near 1 the residual is explained by noise."""
+        known = [one.reduced_chi_square for run in self.runs for one in run.channels if np.isfinite(one.reduced_chi_square)]
         return float(np.mean(known)) if known else float("nan")
 
-    def floor(self, role: str) -> float:
-        """The error that the channels' noise alone would leave in the runs of a role."""
+    def noise_nrmse(self, role: str) -> float:
+        """The NRMSE that the noise of the channels alone would give in the runs of a role."""
         channels = [one for run in self.runs if run.role == role for one in run.channels]
         return overall(one.noise / max(float(np.std(one.measured)), 1e-12) for one in channels if len(one.time))
 
@@ -115,8 +117,9 @@ class Comparison:
         height = self.campaign.model.shaft.height
         found = {
             "campaign": self.campaign.name, "runs": [one.to_json() for one in self.runs], "nrmse": self.nrmse,
-            "fit_nrmse": self.fit_nrmse, "validate_nrmse": self.validate_nrmse, "chi_square_per_sample": self.chi_square,
-            "noise_nrmse": {"fit": self.floor("fit"), "validate": self.floor("validate")},
+            "fit_nrmse": self.fit_nrmse, "validate_nrmse": self.validate_nrmse, "reduced_chi_square": self.reduced_chi_square,
+            "chi_square_per_sample": self.reduced_chi_square,
+            "noise_nrmse": {"fit": self.noise_nrmse("fit"), "validate": self.noise_nrmse("validate")},
             "car_position_edges": list(np.linspace(0.0, height, COMPARISON.position_bins + 1)),
         }  # fmt: skip
         return plain(found)
@@ -172,7 +175,7 @@ def _channel(run: Run, channel: Channel, measured: Floats, predicted: Floats, an
     return ChannelComparison(
         column=channel.column, channel=channel, time=t, measured=m, predicted=p,
         nrmse=rms(residual) / variation, rmse=rms(residual), noise=noise,
-        chi_square=float(np.mean((residual / noise) ** 2)),
+        reduced_chi_square=float(np.mean((residual / noise) ** 2)),
         sprague_geers=sprague_geers(m, p),
         by_phase=_scaled({name: rms(residual[mask]) for name, mask in phases(run.trip, t).items()}, variation),
         by_place=by_bins(run.trip.position(t), residual, np.linspace(0.0, height, COMPARISON.position_bins + 1)) / variation,

@@ -1,4 +1,4 @@
-"""What a diagnosis says, as JSON: verdict, ranking with errors before and after, and what the data cannot see."""
+"""Validation of a diagnosis on the runs held out, and its result as JSON."""
 
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -49,9 +49,10 @@ def validate(diagnosis: Diagnosis, executor: Executor, base: ParameterPoint | No
 
 
 def to_json(validated: ValidatedDiagnosis) -> dict[str, Any]:
-    """The result as in the contract, with more beside it."""
+    """Verdict, ranking and what qualifies them; `misfit_per_datum` is an older name of `reduced_chi_square`."""
     diagnosis, count = validated.diagnosis, max(len(validated.diagnosis.problem.data), 1)
     nominal = diagnosis.problem.residual(diagnosis.nominal)
+    reduced = {"as_it_stands": float(nominal @ nominal) / count, "plant_refitted": diagnosis.baseline.chi_square / count}
     found = {
         "campaign": diagnosis.campaign.name,
         "verdict": diagnosis.verdict,
@@ -59,10 +60,8 @@ def to_json(validated: ValidatedDiagnosis) -> dict[str, Any]:
         "ranking": ranking(validated),
         "indistinguishable": [list(pair) for pair in diagnosis.indistinguishable],
         "probabilities": diagnosis.probabilities,
-        "misfit_per_datum": {
-            "as_it_stands": float(nominal @ nominal) / count,
-            "plant_refitted": diagnosis.baseline.chi_square / count,
-        },
+        "reduced_chi_square": reduced,
+        "misfit_per_datum": reduced,
         "errors": {
             name: {"fit": one.fit_nrmse, "validate": one.validate_nrmse}
             for name, one in (("as_it_stands", validated.before), ("plant_refitted", validated.refitted))
@@ -96,7 +95,7 @@ def _entry(validated: ValidatedDiagnosis, k: int, one: Candidate) -> dict[str, A
         "effect": parts[0], "probability": one.probability, "error_before": before.fit_nrmse, "error_after": after,
         "validate_error_before": before.validate_nrmse, "validate_error_after": held,
         "parameters": short_names(parts[0], values), "estimated": not one.refined,
-        "misfit_per_datum": reduced_chi_square(validated, one),
+        "reduced_chi_square": reduced_chi_square(validated, one), "misfit_per_datum": reduced_chi_square(validated, one),
         "visible_share": one.distinct_share, "least_detectable": short_names(parts[0], one.detection_limits),
     }  # fmt: skip
     # Beside several effects at once there are values that an effect cannot do without: airflow has no force without drag.

@@ -1,4 +1,4 @@
-"""Which effects of a model could go without its error rising."""
+"""Backward elimination: effects whose removal the data do not contradict are taken out of a model."""
 
 from dataclasses import dataclass
 
@@ -12,49 +12,55 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
 from ..progress import ProgressCallback, no_progress
 from ..settings import SCORE
-from .add_effect import Ground
+from .add_effect import BaselineFit
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Without:
-    """A fit without one of the effects; `could_go`: the data do not miss it."""
+class EffectRemoval:
+    """The fit without one of the effects; it is `removable` if the score does not fall without it."""
 
     effect: str
     fitted: FitResult
-    could_go: bool
+    reduced_chi_square: float
+    removable: bool
 
 
-def without_each(ground: Ground, fitted: FitResult, report_progress: ProgressCallback = no_progress) -> list[Without]:
+def remove_each(
+    baseline: BaselineFit, fitted: FitResult, report_progress: ProgressCallback = no_progress
+) -> list[EffectRemoval]:
     """The fit repeated without each of its effects in turn."""
     names = list(components_by_effect(fitted.hypothesis, fitted.effect_coefficients))
-    return [_without(ground, fitted, name, report_progress) for name in names]
+    return [_remove(baseline, fitted, name, report_progress) for name in names]
 
 
-def prune(ground: Ground, fitted: FitResult, report_progress: ProgressCallback = no_progress) -> tuple[FitResult, list[Without]]:
-    """The fit without effects that the data do not miss, taken out one at a time, least missed first; and the last looks."""
-    looks = without_each(ground, fitted, report_progress)
-    idle = [one for one in looks if one.could_go]
-    if not idle:
-        return fitted, looks
-    return prune(ground, min(idle, key=lambda one: one.fitted.chi_square).fitted, report_progress)
+def eliminate_backward(
+    baseline: BaselineFit, fitted: FitResult, report_progress: ProgressCallback = no_progress
+) -> tuple[FitResult, list[EffectRemoval]]:
+    """The fit without removable effects, taken out one at a time, least chi-square first; and the fits without each other one."""
+    removals = remove_each(baseline, fitted, report_progress)
+    removable = [one for one in removals if one.removable]
+    if not removable:
+        return fitted, removals
+    return eliminate_backward(baseline, min(removable, key=lambda one: one.fitted.chi_square).fitted, report_progress)
 
 
-def _without(ground: Ground, fitted: FitResult, name: str, report_progress: ProgressCallback) -> Without:
+def _remove(baseline: BaselineFit, fitted: FitResult, name: str, report_progress: ProgressCallback) -> EffectRemoval:
     report_progress(f"without {name}")
     groups = components_by_effect(fitted.hypothesis, fitted.effect_coefficients)
     kept = [pair for effect, pairs in groups.items() if effect != name for pair in pairs]
     left = combined_or_none([part for part, _ in kept])
     start = np.concatenate([fitted.coefficients[: len(PLANT_PARAMETERS)], [c for _, own in kept for c in own]])
-    found = gauss_newton(ground.problem, left, start, ParameterPoint())
-    return Without(name, found, _score(ground, found) >= _score(ground, fitted))
+    found = gauss_newton(baseline.problem, left, start, ParameterPoint())
+    reduced = found.chi_square / max(len(baseline.problem.data), 1)
+    return EffectRemoval(name, found, reduced, _score(baseline, found) >= _score(baseline, fitted))
 
 
-def _score(ground: Ground, fitted: FitResult) -> float:
+def _score(baseline: BaselineFit, fitted: FitResult) -> float:
     """The diagnosis' own score: what the effects explain, less what they cost."""
     groups = components_by_effect(fitted.hypothesis, fitted.effect_coefficients)
     complexity_penalty = sum(
         SCORE.parameter_penalty * (1 + sum(len(part.directions) for part, _ in pairs)) for pairs in groups.values()
     )
-    return log_score(fitted.chi_square, len(ground.problem.data), complexity_penalty + fitted.prior_cost)
+    return log_score(fitted.chi_square, len(baseline.problem.data), complexity_penalty + fitted.prior_cost)

@@ -1,8 +1,9 @@
-"""From a model that fails to one that does not: diagnose, add, and again, until nothing is missing; then prune."""
+"""Stepwise selection: diagnose and add until nothing is missing, then backward elimination."""
 
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -19,109 +20,119 @@ from ..hypotheses.model_effects import components_by_effect
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 from ..settings import MODEL_UPDATING
-from .add_effect import Added, Ground, added, fit_new, prepare
-from .backward_elimination import Without, prune
+from .add_effect import BaselineFit, UpdatedModel, fit_baseline, fit_with_effect, updated_model
+from .backward_elimination import EffectRemoval, eliminate_backward
 
 
 @dataclass(frozen=True)
-class Step:
-    """A stop on the way: what was added last, errors on fit and validate runs there, and the misfit per datum."""
+class SelectionStep:
+    """The model after a step: what was added last, its NRMSE on fit and validation runs, and its reduced chi-square."""
 
     name: str
-    fit: float
-    validate: float
+    fit_nrmse: float
+    validate_nrmse: float
     reduced_chi_square: float
 
 
 @dataclass(frozen=True)
-class Journey:
-    """All stops and diagnoses, what pruning took out, fits without each effect, and the final model."""
+class StepwiseSelection:
+    """All steps and diagnoses, the effects removed at the end, fits without each remaining effect, and the final model."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[SelectionStep, ...]
     diagnoses: tuple[Diagnosis, ...]
-    pruned: tuple[str, ...]
-    without: tuple[Without, ...]
-    added: Added
+    removed: tuple[str, ...]
+    removals: tuple[EffectRemoval, ...]
+    final: UpdatedModel
 
     @property
-    def last(self) -> Diagnosis:
-        """What is to be said of the final model."""
+    def final_diagnosis(self) -> Diagnosis:
+        """The diagnosis of the final model."""
         return self.diagnoses[-1]
 
     @property
     def model(self) -> RopeModel:
         """The final model."""
-        return self.added.model
+        return self.final.model
 
-    def bought(self) -> list[tuple[str, float, float]]:
-        """What each step bought: its share of the whole fall of the error, on fit and on validate runs."""
+    @property
+    def effects(self) -> list[str]:
+        """The effects of the final model."""
+        return list(components_by_effect(self.final.fitted.hypothesis, self.final.fitted.effect_coefficients))
+
+    def error_reductions(self) -> list[tuple[str, float, float]]:
+        """The share of each step in the whole reduction of the NRMSE, on fit and on validation runs."""
         first, last = self.steps[0], self.steps[-1]
+        fit, validate = first.fit_nrmse - last.fit_nrmse, first.validate_nrmse - last.validate_nrmse
         return [
-            (b.name, _share(a.fit - b.fit, first.fit - last.fit), _share(a.validate - b.validate, first.validate - last.validate))
-            for a, b in zip(self.steps[:-1], self.steps[1:], strict=True)
+            (b.name, _share(a.fit_nrmse - b.fit_nrmse, fit), _share(a.validate_nrmse - b.validate_nrmse, validate))
+            for a, b in pairwise(self.steps)
         ]
 
     def to_json(self) -> dict[str, Any]:
-        """Steps, shares and the final fit."""
+        """Steps, shares and the final fit; `bought`, `pruned` and `misfit_per_datum` are older names kept beside the new ones."""
+        shares = [{"name": name, "share": fit, "validate_share": held} for name, fit, held in self.error_reductions()]
         found = {
-            "verdict_kind": self.last.kind,
-            "effects": list(components_by_effect(self.added.fitted.hypothesis, self.added.fitted.effect_coefficients)),
+            "verdict_kind": self.final_diagnosis.kind,
+            "effects": self.effects,
             "steps": [
-                {"name": s.name, "fit": s.fit, "validate": s.validate, "misfit_per_datum": s.reduced_chi_square}
+                {
+                    "name": s.name, "fit": s.fit_nrmse, "validate": s.validate_nrmse,
+                    "reduced_chi_square": s.reduced_chi_square, "misfit_per_datum": s.reduced_chi_square,
+                }
                 for s in self.steps
             ],
-            "bought": [{"name": name, "share": fit, "validate_share": held} for name, fit, held in self.bought()],
-            "pruned": list(self.pruned),
-            "without": {one.effect: one.fitted.chi_square / max(len(self.last.problem.data), 1) for one in self.without},
-            **self.added.to_json(),
+            "error_reductions": shares, "bought": shares,
+            "removed": list(self.removed), "pruned": list(self.removed),
+            "without": {one.effect: one.reduced_chi_square for one in self.removals},
+            **self.final.to_json(),
         }  # fmt: skip
         return plain(found)
 
 
-def _share(fall: float, whole: float) -> float:
-    return fall / whole if whole else float("nan")
+def _share(part: float, whole: float) -> float:
+    return part / whole if whole else float("nan")
 
 
-def journey(
+def select_stepwise(
     campaign: Campaign,
     executor: Executor,
     report_progress: ProgressCallback = no_progress,
-    most: int = MODEL_UPDATING.max_effects,
-) -> Journey:
-    """Add what is missing, one verdict after the other, until the model is adequate or nothing known helps."""
-    ground = prepare(campaign, executor, report_progress)
+    max_effects: int = MODEL_UPDATING.max_effects,
+) -> StepwiseSelection:
+    """Add the effect of one diagnosis after the other until the model is adequate or no known effect helps."""
+    baseline = fit_baseline(campaign, executor, report_progress)
     before = compare(campaign, executor)
-    steps = [Step("as it stands", before.fit_nrmse, before.validate_nrmse, float("nan"))]
-    fitted: FitResult = ground.fitted
-    steps.append(_step(ground, "plant refitted", fitted, executor))
+    steps = [SelectionStep("as it stands", before.fit_nrmse, before.validate_nrmse, float("nan"))]
+    fitted: FitResult = baseline.fitted
+    steps.append(_step(baseline, "plant refitted", fitted, executor))
     found: list[Diagnosis] = []
     while True:
         found.append(diagnose(campaign, executor, report_progress, replace(fitted.point, plant={})))
-        if found[-1].verdict is None or len(steps) > most + 1:
+        if found[-1].verdict is None or len(steps) > max_effects + 1:
             break
-        for name, step in _each(ground, found[-1], fitted, report_progress):
+        for name, step in _add_each(baseline, found[-1], fitted, report_progress):
             fitted = step
-            steps.append(_step(ground, name, fitted, executor))
+            steps.append(_step(baseline, name, fitted, executor))
     names = set(components_by_effect(fitted.hypothesis, fitted.effect_coefficients))
-    fitted, without = prune(ground, fitted, report_progress)
+    fitted, removals = eliminate_backward(baseline, fitted, report_progress)
     kept = list(components_by_effect(fitted.hypothesis, fitted.effect_coefficients))
-    whole = added(ground, " + ".join(kept) or "nothing", fitted, executor)
-    return Journey(tuple(steps), tuple(found), tuple(sorted(names - set(kept))), tuple(without), whole)
+    whole = updated_model(baseline, " + ".join(kept) or "nothing", fitted, executor)
+    return StepwiseSelection(tuple(steps), tuple(found), tuple(sorted(names - set(kept))), tuple(removals), whole)
 
 
-def _step(ground: Ground, name: str, fitted: FitResult, executor: Executor) -> Step:
-    found: Comparison = compare(ground.campaign, executor, fitted.point, fitted.predictions)
-    return Step(name, found.fit_nrmse, found.validate_nrmse, fitted.chi_square / max(len(ground.problem.data), 1))
+def _step(baseline: BaselineFit, name: str, fitted: FitResult, executor: Executor) -> SelectionStep:
+    found: Comparison = compare(baseline.campaign, executor, fitted.point, fitted.predictions)
+    return SelectionStep(name, found.fit_nrmse, found.validate_nrmse, fitted.chi_square / max(len(baseline.problem.data), 1))
 
 
-def _each(
-    ground: Ground, found: Diagnosis, fitted: FitResult, report_progress: ProgressCallback
+def _add_each(
+    baseline: BaselineFit, found: Diagnosis, fitted: FitResult, report_progress: ProgressCallback
 ) -> Iterator[tuple[str, FitResult]]:
-    """The verdict's effects added one after the other, so that each shows what it buys."""
+    """Fits with the effects of a verdict added one after the other, so that each shows its share in the reduction."""
     best = found.ranking[0].fitted
     plant = best.coefficients[: len(PLANT_PARAMETERS)]
     for name, parts in components_by_effect(best.hypothesis, best.effect_coefficients).items():
-        report_progress(f"{name}, with all others")
+        report_progress(f"fitting {name} with all other effects")
         start = np.concatenate([plant, *(own for _, own in parts)])
-        fitted = fit_new(ground, combine(*(part for part, _ in parts)), start, fitted)
+        fitted = fit_with_effect(baseline, combine(*(part for part, _ in parts)), start, fitted)
         yield name, fitted

@@ -19,11 +19,11 @@ from ..settings import COMPARISON
 
 Floats = NDArray[np.float64]
 MEASURED, PHASE = SECOND, "#eef2f6"
-WHAT = {"N": "force", "N.m": "torque", "N/m": "push", "m": "motion"}  # by its unit
+KIND_OF_INPUT = {"N": "force", "N.m": "torque", "N/m": "line load", "m": "displacement"}  # by its unit
 
 
 def overlay(campaign: Campaign, run: RunComparison, others: Mapping[str, RunComparison] | None = None) -> Figure:
-    """Measured and modelled channels on the left, what is left on the right; `others` are further models of the same run."""
+    """Measured and simulated channels on the left, residuals on the right; `others` are further models of the same run."""
     shown = [one for one in run.channels if len(one.time)]
     figure, axes = panels(2, max(len(shown), 1), 1.9)
     figure.set_size_inches(12.0, 2.0 * max(len(shown), 1) + 0.3)
@@ -40,15 +40,15 @@ def overlay(campaign: Campaign, run: RunComparison, others: Mapping[str, RunComp
         for panel in (left, right):
             _shade(panel, campaign, run, one)
         label(left, "time [s]" if k == len(shown) - 1 else "", f"{one.column} [{one.channel.unit}]")
-        label(right, "time [s]" if k == len(shown) - 1 else "", "measured less model")
+        label(right, "time [s]" if k == len(shown) - 1 else "", "residual")
     if shown:
         legend(axes[0], ncols=3, loc="best")
-        axes[1].set_title("what is left; green: twice the noise", loc="left", fontsize=9.5)
+        axes[1].set_title("measured less simulated; green: ± 2 standard deviations of the noise", loc="left", fontsize=9.5)
     return figure
 
 
 def _shade(axes: Axes, campaign: Campaign, run: RunComparison, one: ChannelComparison) -> None:
-    """Grey where the car speeds up or slows down."""
+    """Shaded where the car accelerates or decelerates."""
     trip = next(other.trip for other in campaign.runs if other.file == run.file)
     axes.set_xlim(one.time[0], one.time[-1])
     for name in ("acceleration", "deceleration"):
@@ -57,8 +57,8 @@ def _shade(axes: Axes, campaign: Campaign, run: RunComparison, one: ChannelCompa
             axes.axvspan(when[0], when[-1], color=PHASE, zorder=0)
 
 
-def where(comparison: Comparison) -> Figure:
-    """Error of each channel over the car's position and over frequency, root mean square over the runs."""
+def by_position_and_frequency(comparison: Comparison) -> Figure:
+    """NRMSE of each channel over car position and over frequency, root mean square over the runs."""
     figure, (left, right) = panels(2, height=3.2)
     edges = np.linspace(0.0, comparison.campaign.model.shaft.height, COMPARISON.position_bins + 1)
     bands = [f"{a:g}–{b:g}" if np.isfinite(b) else f"over {a:g}" for a, b in itertools.pairwise(COMPARISON.frequency_bands)]
@@ -68,7 +68,7 @@ def where(comparison: Comparison) -> Figure:
             100.0 * _mean([one.by_place for one in own]), edges, color=COLOURS[k % len(COLOURS)], linewidth=1.4, label=column
         )
         right.plot(bands, 100.0 * _mean([one.by_band for one in own]), "o-", color=COLOURS[k % len(COLOURS)], markersize=4)
-    label(left, "car's position [m]", "error / measured variation [%]")
+    label(left, "car position [m]", "NRMSE [%]")
     label(right, "frequency [Hz]", "")
     right.tick_params(axis="x", labelsize=8)
     legend(left)
@@ -76,14 +76,14 @@ def where(comparison: Comparison) -> Figure:
 
 
 def _mean(rows: Sequence[Floats]) -> Floats:
-    """Root mean square of rows, place by place, of what is known."""
+    """Root mean square over rows, NaN left out."""
     squares = np.square(np.array(rows, float))
     known = np.isfinite(squares)
     return np.asarray(np.sqrt(np.where(known, squares, 0.0).sum(0) / np.where(known.any(0), known.sum(0), np.nan)))
 
 
 def orders(comparison: Comparison) -> Figure:
-    """Order spectrum of what is left, each channel a panel: lines at whole orders turn with the sheave."""
+    """Order spectrum of the residual, a panel for each channel; whole orders are multiples of the sheave's rotation."""
     columns = list(comparison.campaign.channels)
     rows = -(-len(columns) // 2)
     figure, axes = panels(2, rows, 2.4)
@@ -93,7 +93,7 @@ def orders(comparison: Comparison) -> Figure:
             axis.plot(ORDERS, one.orders / one.channel.scale, color=COLOURS[k % len(COLOURS)], linewidth=1.1, label=run.file)
         for whole in range(1, 7):
             axis.axvline(whole, color=GREY, linewidth=0.6, linestyle=":")
-        label(axis, "periods in one turn of the sheave", f"{column} [{comparison.campaign.channels[column].unit}]")
+        label(axis, "periods per revolution of the sheave", f"{column} [{comparison.campaign.channels[column].unit}]")
     for axis in axes[len(columns) :]:
         axis.set_visible(False)
     legend(axes[0])
@@ -101,7 +101,7 @@ def orders(comparison: Comparison) -> Figure:
 
 
 def ranking(entries: Sequence[Mapping[str, float]], names: Sequence[str], plant: tuple[float, float]) -> Figure:
-    """Probability of each effect, and what error it would leave on fit and held-out runs; lines: without any effect."""
+    """Probability of each effect, and NRMSE with it on fit and validation runs; lines: without any effect."""
     figure, (left, right) = panels(2, height=0.34 * len(names) + 1.1)
     places = np.arange(len(names))[::-1]
     left.barh(places, [one["probability"] for one in entries], color=FIRST, height=0.6)
@@ -111,20 +111,20 @@ def ranking(entries: Sequence[Mapping[str, float]], names: Sequence[str], plant:
         axes.set_ylim(-0.6, len(names) - 0.4)
     right.plot([100.0 * one["error_after"] for one in entries], places, "o", color=FIRST, label="fit runs")
     right.plot(
-        [100.0 * one["validate_error_after"] for one in entries], places, "D", color=SECOND, markersize=5, label="held out"
+        [100.0 * one["validate_error_after"] for one in entries], places, "D", color=SECOND, markersize=5, label="validation runs"
     )
     for value, colour in zip(plant, (FIRST, SECOND), strict=True):
         right.axvline(100.0 * value, color=colour, linewidth=0.9, linestyle="--")
     right.set_yticks(places, [""] * len(names))
     right.set_xlim(left=0.0)
     label(left, "probability", "")
-    label(right, "error left with the effect [%]", "", "dashed: plant refitted, no effect")
+    label(right, "NRMSE with the effect [%]", "", "dashed: plant refitted, no effect")
     legend(right)
     return figure
 
 
-def correlation_bars(correlations: Sequence[ResidualCorrelation]) -> Figure:
-    """How much of the residual each coordinate accounts for."""
+def correlation_bars(correlations: Sequence[ResidualCorrelation], axis: str) -> Figure:
+    """The share that each coordinate explains."""
     figure, (axes,) = panels(1, height=0.32 * len(correlations) + 0.9)
     places = np.arange(len(correlations))[::-1]
     axes.barh(places, [100.0 * one.share for one in correlations], color=FIRST, height=0.6)
@@ -132,44 +132,45 @@ def correlation_bars(correlations: Sequence[ResidualCorrelation]) -> Figure:
         places, [one.coordinate + (f" ({one.peak:.3g} {one.unit})" if one.peak is not None else "") for one in correlations]
     )
     axes.set_xlim(0.0, 100.0)
-    label(axes, "share of the residual [%]", "")
+    label(axes, axis, "")
     return figure
 
 
 def force_bars(force: InputEstimation) -> Figure:
-    """How much of the rest an unknown force would explain at each place."""
+    """The share of the residual that an unknown force explains at each location."""
     figure, (axes,) = panels(1, height=0.32 * len(force.estimates) + 0.9)
     places = np.arange(len(force.estimates))[::-1]
     axes.barh(places, [100.0 * one.share for one in force.estimates], color=FIRST, height=0.6)
     axes.set_yticks(places, [one.location.name for one in force.estimates])
     axes.set_xlim(0.0, 100.0)
-    label(axes, "share of what is left beyond noise [%]", "")
+    label(axes, "explained share of the residual beyond noise [%]", "")
     return figure
 
 
 def force_histories(campaign: Campaign, force: InputEstimation) -> Figure:
-    """The best force over time in each run, beside the car's position."""
+    """Time history of the best force in each run, with the car position."""
     best = force.estimates[0]
     runs = [run for run in campaign.runs if run.file in best.histories]
     figure, axes = panels(1, len(runs), 2.0)
     for k, (axis, run) in enumerate(zip(axes, runs, strict=True)):
         course = best.histories[run.file]
         axis.plot(course.time, course.value, color=FIRST, linewidth=1.2)
-        label(axis, "time [s]" if k == len(runs) - 1 else "", f"{WHAT[best.location.unit]} [{best.location.unit}]", run.file)
-        beside = axis.twinx()
-        beside.plot(course.time, run.trip.position(course.time), color=GREY, linewidth=1.0, linestyle="--")
-        label(beside, "", "car [m]")
+        name = f"{KIND_OF_INPUT[best.location.unit]} [{best.location.unit}]"
+        label(axis, "time [s]" if k == len(runs) - 1 else "", name, run.file)
+        car = axis.twinx()
+        car.plot(course.time, run.trip.position(course.time), color=GREY, linewidth=1.0, linestyle="--")
+        label(car, "", "car [m]")
     return figure
 
 
-def stairs(names: Sequence[str], fit: Sequence[float], held: Sequence[float]) -> Figure:
-    """Error after each step, on fit and held-out runs."""
+def error_bars(names: Sequence[str], fit: Sequence[float], validate: Sequence[float]) -> Figure:
+    """NRMSE at each stage, on fit and validation runs."""
     figure, (axes,) = panels(1, height=3.2)
     at = np.arange(len(names))
-    for shift, values, colour, text in ((-0.2, fit, FIRST, "fit runs"), (0.2, held, SECOND, "held out")):
+    for shift, values, colour, text in ((-0.2, fit, FIRST, "fit runs"), (0.2, validate, SECOND, "validation runs")):
         bars = axes.bar(at + shift, 100.0 * np.array(values), 0.38, color=colour, label=text)
         axes.bar_label(bars, fmt="%.3g", fontsize=8)
     axes.set_xticks(at, names)
-    label(axes, "", "error / measured variation [%]")
+    label(axes, "", "NRMSE [%]")
     legend(axes)
     return figure

@@ -8,7 +8,7 @@ import numpy as np
 from ...report.page import Table
 
 WIDTH = 100  # of lines on a terminal
-NOTHING = 1e-9  # parameters below it are told as zero
+ZERO = 1e-9  # parameters of smaller size are shown as zero
 
 
 def percent(share: float | None) -> str:
@@ -26,12 +26,12 @@ def wrapped(*sentences: str) -> list[str]:
     return [line for sentence in sentences for line in wrap(sentence, WIDTH)]
 
 
-def chance(probability: float) -> str:
-    """A probability; none is certain."""
-    return "over 0.99" if probability > 0.99 else f"{probability:.2f}" if probability >= 0.01 else "under 0.01"
+def probability(value: float) -> str:
+    """A probability of two digits; none is shown as certain."""
+    return "over 0.99" if value > 0.99 else f"{value:.2f}" if value >= 0.01 else "under 0.01"
 
 
-def plain_table(table: Table) -> list[str]:
+def text_table(table: Table) -> list[str]:
     """A table as lines of text."""
     cells: Sequence[Sequence[str]] = [list(table.head), *table.rows]
     widths = [max(len(row[k]) for row in cells) for k in range(len(table.head))]
@@ -42,3 +42,13 @@ def plain_table(table: Table) -> list[str]:
         )
         lines.append("  ".join(padded).rstrip())
     return lines
+
+
+def listed(title: str, items: Sequence[str]) -> list[str]:
+    """Items under a title as lines of text; no line where there is no item."""
+    return [title, *(f"  {item}" for item in items)] if items else []
+
+
+def paragraphs(*texts: Sequence[str]) -> str:
+    """Groups of lines as one text, an empty line between them; empty groups are left out."""
+    return "\n\n".join("\n".join(lines) for lines in texts if lines)

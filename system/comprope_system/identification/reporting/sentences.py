@@ -1,94 +1,103 @@
-"""Results of the identification in sentences."""
+"""Results of the identification in sentences, for terminal and pages."""
 
 import numpy as np
 
 from ..comparison.compare import Comparison
 from ..diagnosis.diagnose import Diagnosis
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, full_name, implausible_parameters, ranking, reduced_chi_square
-from ..model_updating.add_effect import Added
-from ..model_updating.stepwise_selection import Journey
+from ..model_updating.add_effect import UpdatedModel
+from ..model_updating.stepwise_selection import StepwiseSelection
 from ..settings import COMPARISON
-from .formatting import chance, number, percent
+from .formatting import number, percent, probability
+
+UNEXPLAINED = 1.5  # reduced chi-square from which a verdict is followed by a remark that more may be missing
+LIKELY = 0.02  # probability above which an indistinguishable effect is named
 
 
-def compared(one: Comparison) -> str:
-    """One sentence: how far off, and whether that is more than noise."""
-    held = f", {percent(one.validate_nrmse)} on the runs held out" if np.isfinite(one.validate_nrmse) else ""
-    ratio = one.chi_square
-    rest = "noise explains all of it" if ratio < COMPARISON.adequate else "more than noise is left to explain"
-    return (
-        f"The model misses by {percent(one.fit_nrmse)} of what the channels vary on the fit runs{held}; noise alone would leave "
-        f"{percent(one.floor('fit'))}. What is left is {number(ratio)} times the noise's mean square: {rest}."
-    )
-
-
-def verdict(validated: ValidatedDiagnosis) -> list[str]:
-    """What is missing, in sentences a newcomer understands."""
-    found = validated.diagnosis
-    surely = found.probabilities
-    ruled_out = [f"Ruled out beforehand: {', '.join(sorted(out))}."] if (out := found.problem.ruled_out) else []
-    bent = _bent(found)
-    if found.verdict:
-        return [_missing(validated), *_twins(found), *bent, *ruled_out]
-    if found.kind == "adequate":
-        told = "Nothing is missing: with its plant parameters refitted the model is as near as noise allows"
-        return [f"{told} (probability {chance(surely['adequate'])}).", *bent, *ruled_out]
+def comparison_sentences(one: Comparison) -> list[str]:
+    """NRMSE on fit and validation runs beside that of noise alone, and whether the residual exceeds the noise."""
+    validation = f", {percent(one.validate_nrmse)} on the validation runs" if np.isfinite(one.validate_nrmse) else ""
+    if one.reduced_chi_square < COMPARISON.adequate:
+        residual = "the residual is explained by measurement noise"
+    else:
+        residual = "the residual exceeds the measurement noise"
     return [
-        f"Something is missing, and none of the known effects explains it (probability {chance(surely['unknown'])}).",
-        *bent,
-        "See what the rest is locked to: that is the clue.",
-        *ruled_out,
+        f"NRMSE {percent(one.fit_nrmse)} on the fit runs{validation} (RMS error / standard deviation of the measured channel); "
+        f"noise alone would give {percent(one.noise_nrmse('fit'))}.",
+        f"Reduced chi-square {number(one.reduced_chi_square)}: {residual}.",
     ]
 
 
-def _missing(validated: ValidatedDiagnosis) -> str:
+def verdict_sentences(validated: ValidatedDiagnosis) -> list[str]:
+    """The verdict with its probability, then what qualifies it."""
+    found = validated.diagnosis
+    excluded = [f"Excluded by the user: {', '.join(sorted(out))}."] if (out := found.problem.ruled_out) else []
+    implausible = _implausible(found)
+    if found.verdict:
+        return [_missing_effect(validated), *_indistinguishable(found), *implausible, *excluded]
+    if found.kind == "adequate":
+        text = "Nothing is missing: with refitted plant parameters the residual is explained by measurement noise"
+        return [f"{text} (probability {probability(found.probabilities['adequate'])}).", *implausible, *excluded]
+    return [
+        "An effect is missing, and none of the known effects explains the residual "
+        f"(probability {probability(found.probabilities['unknown'])}).",
+        *implausible,
+        "The residual correlations and the estimated force indicate its kind.",
+        *excluded,
+    ]
+
+
+def _missing_effect(validated: ValidatedDiagnosis) -> str:
     found, top = validated.diagnosis, ranking(validated)[0]
-    name = full_name(found.ranking[0].hypothesis)
     others = top.get("together_with", {})
-    more = f", and {', '.join(others)}," if others else ""
-    what = "An instrument is at fault" if found.kind == "instrument" else "Missing"
+    names = " and ".join([full_name(found.ranking[0].hypothesis), *others])
+    kind = "Faulty instrument" if found.kind == "instrument" else "Missing effect"
     left = reduced_chi_square(validated, found.ranking[0])
-    rest = "" if left < 1.5 else f" It leaves {number(left)} times what noise would: perhaps something more is missing."
+    rest = "" if left < UNEXPLAINED else f" Reduced chi-square with it {number(left)}: another effect may be missing."
     return (
-        f"{what}: {name}{more} with probability {chance(top['probability'])}. With it the error falls from "
+        f"{kind}: {names}, probability {probability(top['probability'])}. With it the NRMSE decreases from "
         f"{percent(top['error_before'])} to {percent(top['error_after'])} on the fit runs and from "
-        f"{percent(top['validate_error_before'])} to {percent(top['validate_error_after'])} on runs held out; noise alone would "
-        f"leave {percent(validated.before.floor('fit'))} and {percent(validated.before.floor('validate'))}.{rest}"
+        f"{percent(top['validate_error_before'])} to {percent(top['validate_error_after'])} on the validation runs; noise alone "
+        f"would give {percent(validated.before.noise_nrmse('fit'))} and "
+        f"{percent(validated.before.noise_nrmse('validate'))}.{rest}"
     )
 
 
-def _bent(found: Diagnosis) -> list[str]:
-    """What a fit asks of the plant that no data sheet allows."""
-    told = [
-        f"{key} by {change:+.0%}, {abs(off):.0f} times what it usually errs by"
-        for key, change, off in implausible_parameters(found)
+def _implausible(found: Diagnosis) -> list[str]:
+    """Plant parameters that the fit changes by more than a data sheet can be wrong."""
+    changed = [
+        f"{key} by {change:+.0%} ({abs(shift):.0f} prior standard deviations)"
+        for key, change, shift in implausible_parameters(found)
     ]
-    return [f"The fit needs a plant far off what is stated: {'; '.join(told)}."] if told else []
+    return [f"The fit changes plant parameters implausibly far from their priors: {'; '.join(changed)}."] if changed else []
 
 
-def _twins(found: Diagnosis) -> list[str]:
-    twins = sorted({a if b == found.verdict else b for a, b in found.indistinguishable if found.verdict in (a, b)})
-    likely = [name for name in twins if found.probabilities.get(name, 0.0) > 0.02]
-    return [f"These data hardly tell it from {', '.join(likely)}."] if likely else []
+def _indistinguishable(found: Diagnosis) -> list[str]:
+    others = sorted({a if b == found.verdict else b for a, b in found.indistinguishable if found.verdict in (a, b)})
+    likely = [name for name in others if found.probabilities.get(name, 0.0) > LIKELY]
+    return [f"These data hardly distinguish it from {', '.join(likely)}."] if likely else []
 
 
-def added(one: Added) -> str:
-    """One sentence: what an effect did to the errors."""
+def update_sentence(one: UpdatedModel) -> str:
+    """NRMSE before and after an effect was added or refitted."""
     return (
-        f"With {one.effect} the error goes from {percent(one.before.fit_nrmse)} to {percent(one.after.fit_nrmse)} on the "
-        f"fit runs and from {percent(one.before.validate_nrmse)} to {percent(one.after.validate_nrmse)} on runs held out; "
-        f"refitting the plant alone gives {percent(one.refitted.fit_nrmse)} and {percent(one.refitted.validate_nrmse)}."
+        f"With {one.effect} the NRMSE changes from {percent(one.before.fit_nrmse)} to {percent(one.after.fit_nrmse)} on the "
+        f"fit runs and from {percent(one.before.validate_nrmse)} to {percent(one.after.validate_nrmse)} on the validation runs; "
+        f"refitted plant parameters alone give {percent(one.refitted.fit_nrmse)} and {percent(one.refitted.validate_nrmse)}."
     )
 
 
-def travelled(found: Journey) -> str:
-    """One sentence: where a journey ended."""
+def selection_sentence(found: StepwiseSelection) -> str:
+    """Effects added by a stepwise selection, and the NRMSE before and after."""
     first, last = found.steps[0], found.steps[-1]
     names = [one.name for one in found.steps[2:]]
-    end = {"adequate": "nothing is missing beyond noise", "unknown_effect": "something is left that no known effect explains"}
-    added_ones = f"Added {', '.join(names)}" if names else "No effect was added"
+    end = {
+        "adequate": "the residual is explained by measurement noise",
+        "unknown_effect": "a residual remains that no known effect explains",
+    }
+    added = f"Added {', '.join(names)}" if names else "No effect was added"
     return (
-        f"{added_ones}: the error went from {percent(first.fit)} to {percent(last.fit)} on the fit runs and from "
-        f"{percent(first.validate)} to {percent(last.validate)} on runs held out; "
-        f"{end.get(found.last.kind, 'more may be missing')}."
+        f"{added}: the NRMSE changed from {percent(first.fit_nrmse)} to {percent(last.fit_nrmse)} on the fit runs and from "
+        f"{percent(first.validate_nrmse)} to {percent(last.validate_nrmse)} on the validation runs; "
+        f"{end.get(found.final_diagnosis.kind, 'further effects may be missing')}."
     )
