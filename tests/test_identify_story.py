@@ -26,8 +26,8 @@ from comprope_system.identification.hypotheses.plant_parameters import PLANT_PAR
 from comprope_system.identification.model_updating import stepwise_selection as steps
 from comprope_system.identification.model_updating.add_effect import campaign_parameters, file_comment, fit_baseline
 from comprope_system.identification.residuals.residual_correlation import residual_correlations
-from comprope_system.identification.results.diagnosis import DiagnosisResult
-from comprope_system.identification.results.updating import AddResult
+from comprope_system.identification.result.diagnosis import DiagnosisResult
+from comprope_system.identification.result.updating import AddResult
 from comprope_system.parallel.executors import threads
 
 from . import virtual_elevator

@@ -19,9 +19,9 @@ from .prediction.parameter_point import ParameterPoint
 from .progress import ProgressCallback
 from .residuals.input_estimation import estimate_residual_force
 from .residuals.residual_correlation import residual_correlations, rest_ratio_of
-from .results.comparison import ComparisonResult
-from .results.diagnosis import DiagnosisResult
-from .results.updating import AddResult, ImproveResult
+from .result.comparison import ComparisonResult
+from .result.diagnosis import DiagnosisResult
+from .result.updating import AddResult, ImproveResult
 from .settings import MODEL_UPDATING
 
 CampaignInput = str | Path | Campaign

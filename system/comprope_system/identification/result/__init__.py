@@ -1,0 +1,1 @@
+"""Results of the public functions compare, diagnose, add and improve."""

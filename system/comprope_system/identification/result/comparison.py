@@ -1,0 +1,85 @@
+"""The result of `comprope_system.compare`."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from ...report.result import Result
+from ..comparison.compare import Comparison, RunComparison
+from ..data.campaign import Campaign
+from ..reporting import sentences, tables
+from ..reporting.formatting import listed, paragraphs, text_table, wrapped
+
+
+@dataclass(frozen=True, repr=False)
+class ComparisonResult(Result):
+    """The model against the measurements of a campaign: `comparison` with all series, `remarks` on the quality of the data."""
+
+    comparison: Comparison
+    remarks: tuple[str, ...]
+
+    @property
+    def campaign(self) -> Campaign:
+        """The campaign with its model and runs."""
+        return self.comparison.campaign
+
+    @property
+    def runs(self) -> tuple[RunComparison, ...]:
+        """Each run with its channels: series, errors by phase, car position and frequency."""
+        return self.comparison.runs
+
+    @property
+    def nrmse(self) -> float:
+        """RMS error over the standard deviation of the measured channel, root mean square over all channels and runs."""
+        return self.comparison.nrmse
+
+    @property
+    def fit_nrmse(self) -> float:
+        """The NRMSE of the fit runs."""
+        return self.comparison.fit_nrmse
+
+    @property
+    def validate_nrmse(self) -> float:
+        """The NRMSE of the validation runs, NaN if there are none."""
+        return self.comparison.validate_nrmse
+
+    @property
+    def reduced_chi_square(self) -> float:
+        """Mean square of the residual over the variance of the noise, mean over channels and runs."""
+        return self.comparison.reduced_chi_square
+
+    def headline(self) -> str:
+        """NRMSE on fit and validation runs."""
+        return sentences.comparison_sentences(self.comparison)[0]
+
+    def summary(self) -> str:
+        """NRMSE and reduced chi-square, the error of each run and channel by phase of the trip, and remarks on the data."""
+        return paragraphs(
+            wrapped(*sentences.comparison_sentences(self.comparison)),
+            text_table(tables.error_table(self.comparison)),
+            listed("Data quality:", self.remarks),
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Errors of all runs and channels, lengths and forces in the unit of the channel."""
+        return self.comparison.to_json() | {"remarks": list(self.remarks)}
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row for each run and channel: NRMSE, RMS error in the unit of the channel, reduced chi-square, NRMSE by phase."""
+        rows = [
+            {
+                "file": run.file, "role": run.role, "channel": one.column, "unit": one.channel.unit, "nrmse": one.nrmse,
+                "rmse": one.rmse / one.channel.scale, "reduced_chi_square": one.reduced_chi_square, **one.by_phase,
+            }
+            for run in self.runs
+            for one in run.channels
+        ]  # fmt: skip
+        return pd.DataFrame(rows)
+
+    def save_html(self, path: str | Path) -> None:
+        """Write a page with tables and pictures of every run, completely or not at all."""
+        from ..reporting.comparison_page import save_comparison
+
+        save_comparison(Path(path), self.comparison, self.remarks)
