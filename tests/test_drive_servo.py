@@ -4,7 +4,20 @@ import control
 import numpy as np
 import pytest
 
-from comprope.drive.hoist_dynamics import T_C, T_W, V_C, V_S, X_C, X_W, S, holding_force, lumped_hoist, moving_mass, state_space
+from comprope.drive.hoist_dynamics import (
+    T_C,
+    T_W,
+    V_C,
+    V_S,
+    V_W,
+    X_C,
+    X_W,
+    S,
+    holding_force,
+    lumped_hoist,
+    moving_mass,
+    state_space,
+)
 from comprope.drive.parameters import Drive, Plant, Servo, Shaft
 from comprope.drive.scheduled_plant import scheduled_plant
 from comprope.drive.servo_control import continuous_speed_control, design_servo, sampled_speed_control
@@ -47,6 +60,15 @@ def test_car_swings_on_its_rope_at_the_frequency_of_spring_and_mass() -> None:
     keep = [V_C, T_C]  # the sheave held
     frequencies = np.abs(np.linalg.eigvals(hoist.A[np.ix_(keep, keep)]))
     assert frequencies == pytest.approx([np.sqrt(3e7 / 54.0 / 2000.0)] * 2, rel=1e-12)
+
+
+@pytest.mark.parametrize(("keep", "mass", "length"), [([V_C, T_C], 2000.0, 44.0), ([V_W, T_W], 2300.0, 14.0)])
+def test_each_side_swings_and_dies_away_as_spring_and_damper_have_it(keep: list[int], mass: float, length: float) -> None:
+    """Stiffness EA / L and damping D / L of the rope's length there, the sheave held and the car 10 m up."""
+    plant = Plant(rope_mass_per_length=0.0)
+    found = np.linalg.eigvals(state_space(Drive(plant=plant), 10.0).A[np.ix_(keep, keep)])
+    assert np.abs(found) == pytest.approx([np.sqrt(plant.rope_stiffness / length / mass)] * 2, rel=1e-9)
+    assert found.real == pytest.approx([-plant.rope_damping / length / (2.0 * mass)] * 2, rel=1e-9)
 
 
 def test_a_slow_pull_at_the_rim_moves_all_masses_alike() -> None:
