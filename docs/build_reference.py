@@ -1,5 +1,6 @@
 """Write `reference.md`, beside this file, from the declarations: `python docs/build_reference.py`."""
 
+import runpy
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -46,9 +47,14 @@ def text() -> str:
     rope, drive = rope_interface(load(model_path("tower50"))), drive_interface()
     parts = [
         TITLE, _symbols(rope), _model_file(), _effects(), _campaign(), _columns(),
-        _fmu("The rope's FMU", rope), _fmu("The drive's FMU", drive), _drive(), _plant_priors(), _settings(),
+        _fmu("The rope's FMU", rope), _fmu("The drive's FMU", drive), _drive(), _api(), _plant_priors(),
+        _settings(),
     ]  # fmt: skip
     return "\n".join(parts)
+
+
+def _api() -> str:
+    return str(runpy.run_path(str(PATH.with_name("api_reference.py")))["text"](_table))
 
 
 def _symbols(rope: ModelInterface) -> str:
