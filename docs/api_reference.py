@@ -12,9 +12,9 @@ from comprope_system.report.result import Result
 INTRODUCTION = """## Python interface
 
 `import comprope_system` gives scripts and notebooks the functions below. Each returns one result object with its own fields, and
-with `summary()`, `to_json()`, `to_dataframe()`, `save_html(path)` and `save_json(path)`; in a notebook it shows a short table. The
-functions print nothing and write nothing except a `checkpoint` that is asked for. With `jobs` above 1, a script calls them under
-`if __name__ == "__main__":`, because the processes import it.
+with `summary()`, `to_json()`, `to_dataframe()`, `save_html(path)` and `save_json(path)`; in a notebook it shows a short table.
+The functions print nothing and write nothing except a `checkpoint` that is asked for. With `jobs` above 1, a script calls them
+under `if __name__ == "__main__":`, because the processes import it.
 
 `progress` is a function `progress(text, done, total)`, called with what is being computed, the number of steps done and that of
 all steps, 0 where it is unknown. `executor` is any executor of `concurrent.futures`, or the address of a Dask scheduler.
