@@ -3,7 +3,7 @@
  *     native_host SCENARIO BINARY GUID CAR COUNTERWEIGHT MASS OUTPUT [NUMBER]
  *
  * CAR and COUNTERWEIGHT are value references of the ends' heights, MASS of a positive parameter, OUTPUT of a real
- * output. Whatever is not as it should be is told with its line, and the exit status is then 1. Memory that an instance
+ * output. Each failed check is printed with its line, and the exit status is then 1. Memory that an instance
  * takes through the callbacks and does not give back counts as an error.
  */
 
@@ -50,13 +50,13 @@ static struct {
 } given;
 
 static int failures;
-static _Atomic long taken, told;
+static _Atomic long taken, messages;
 
 #define CHECK(condition) check(!!(condition), #condition, __LINE__)
 
-static void check(int fine, const char *what, int line)
+static void check(int passed, const char *what, int line)
 {
-    if (!fine) {
+    if (!passed) {
         failures++;
         printf("line %d: not so: %s\n", line, what);
     }
@@ -79,7 +79,7 @@ static void hear(fmi2ComponentEnvironment environment, fmi2String instance, fmi2
 {
     (void)environment, (void)instance, (void)category;
     CHECK(status == fmi2Error && message && *message);
-    told++;
+    messages++;
 }
 
 static const fmi2CallbackFunctions CALLBACKS = {hear, take, give_back, NULL, NULL};
@@ -159,7 +159,7 @@ static void scenario_cycle(void)
         }
         CLOSE(fmu.library);
     }
-    CHECK(told == 0);
+    CHECK(messages == 0);
 }
 
 /* One ride of so many steps; where it gets to can be compared with other systems. */
@@ -273,7 +273,7 @@ static void scenario_wrong(void)
     CHECK(fmu.Instantiate("", fmi2CoSimulation, given.guid, "", &CALLBACKS, 0, 0) == NULL);
     CHECK(fmu.Instantiate("one", fmi2ModelExchange, given.guid, "", &CALLBACKS, 0, 0) == NULL);
     CHECK(fmu.Instantiate("one", fmi2CoSimulation, given.guid, "", NULL, 0, 0) == NULL);
-    CHECK(told == 3);
+    CHECK(messages == 3);
     fmu.FreeInstance(NULL);
     CHECK(fmu.DoStep(NULL, 0.0, 0.01, 1) == fmi2Error);
     CHECK(fmu.GetReal(NULL, &given.output, 1, &value) == fmi2Error);
@@ -346,6 +346,6 @@ int main(int count, char **arguments)
         return 2;
     }
     CHECK(taken == 0);
-    printf("%s: %d failures, %ld messages\n", scenario, failures, (long)told);
+    printf("%s: %d failures, %ld messages\n", scenario, failures, (long)messages);
     return failures != 0;
 }

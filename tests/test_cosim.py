@@ -55,10 +55,10 @@ class Decay:
         return {"value": self.value}
 
 
-def toy(name, engine, **parameters):
+def toy(name, create, **parameters):
     variables = [Variable(key, "real", "parameter", "", start=value) for key, value in parameters.items()]
     variables += [Variable("input", "real", "input", "", start=0.0), Variable("value", "real", "output", "")]
-    return InProcessParticipant(name, ModelInterface(name, "", tuple(variables), engine), {})
+    return InProcessParticipant(name, ModelInterface(name, "", tuple(variables), create), {})
 
 
 def link(source, target):

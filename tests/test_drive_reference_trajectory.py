@@ -71,14 +71,14 @@ def test_no_limit_is_passed_whatever_shapes_a_trip(
 ) -> None:
     profile = Profile(smoothing=smoothing)
     drive = Drive(profile=profile, curve=curve, shaper=shaper(count), trip=FirstTrip(start_position=start, destination=end))
-    course = first_trajectory(drive)
-    seen = [course.at(course.start_time + course.duration * k / 400) for k in range(401)]
+    trajectory = first_trajectory(drive)
+    seen = [trajectory.at(trajectory.start_time + trajectory.duration * k / 400) for k in range(401)]
     assert max(abs(one.velocity) for one in seen) <= profile.speed * (1.0 + 1e-9)
     assert max(abs(one.acceleration) for one in seen) <= profile.acceleration * (1.0 + 1e-9)
     assert max(abs(one.jerk) for one in seen) <= profile.jerk * (
         1.0 + 1e-6
     )  # smoothing divides differences by as little as 10 ms
-    assert course.at(course.end_time).position == end
+    assert trajectory.at(trajectory.end_time).position == end
     low, high = min(start, end), max(start, end)
     assert all(low - 1e-9 <= one.position <= high + 1e-9 for one in seen)
 
@@ -87,9 +87,9 @@ def test_no_limit_is_passed_whatever_shapes_a_trip(
 @pytest.mark.parametrize("smoothing", [0.0, 1.3])
 def test_velocity_and_acceleration_are_the_position_s_derivatives(curve: Curve, smoothing: float) -> None:
     drive = Drive(profile=Profile(smoothing=smoothing), curve=curve, shaper=shaper(3.0, tolerance=0.05))
-    course, h = first_trajectory(drive), 1e-4
-    for time in np.linspace(course.start_time + 0.1, course.end_time - 0.1, 37):
-        before, now, after = (course.at(time + shift) for shift in (-h, 0.0, h))
+    trajectory, h = first_trajectory(drive), 1e-4
+    for time in np.linspace(trajectory.start_time + 0.1, trajectory.end_time - 0.1, 37):
+        before, now, after = (trajectory.at(time + shift) for shift in (-h, 0.0, h))
         # Differences of 50 m over 0.2 ms keep 1e-10; the acceleration's corners lie within a step now and then.
         assert (after.position - before.position) / (2.0 * h) == pytest.approx(now.velocity, abs=1e-8)
         assert (after.velocity - before.velocity) / (2.0 * h) == pytest.approx(now.acceleration, abs=1e-4)
@@ -97,8 +97,8 @@ def test_velocity_and_acceleration_are_the_position_s_derivatives(curve: Curve, 
 
 def test_a_free_shape_is_as_fast_as_its_limits_allow() -> None:
     drive = Drive(curve=CURVE)
-    course = first_trajectory(drive)
-    seen = [course.at(course.start_time + course.duration * k / 2000) for k in range(2001)]
+    trajectory = first_trajectory(drive)
+    seen = [trajectory.at(trajectory.start_time + trajectory.duration * k / 2000) for k in range(2001)]
     used = (
         max(one.velocity for one in seen) / drive.profile.speed,
         max(one.acceleration for one in seen) / drive.profile.acceleration,
@@ -108,19 +108,19 @@ def test_a_free_shape_is_as_fast_as_its_limits_allow() -> None:
 
 
 def test_without_shaping_a_course_is_its_trip() -> None:
-    course = first_trajectory(Drive())
-    assert course == ReferenceTrajectory(course.unshaped)
-    assert [course.at(one) for one in (3.0, 9.0)] == [course.unshaped.at(one) for one in (3.0, 9.0)]
+    trajectory = first_trajectory(Drive())
+    assert trajectory == ReferenceTrajectory(trajectory.unshaped)
+    assert [trajectory.at(one) for one in (3.0, 9.0)] == [trajectory.unshaped.at(one) for one in (3.0, 9.0)]
 
 
 def test_no_way_takes_no_time_however_it_is_shaped() -> None:
     trip = FirstTrip(start_position=7.0, destination=7.0)
-    course = first_trajectory(Drive(profile=Profile(smoothing=2.0), curve=CURVE, shaper=shaper(3.0), trip=trip))
-    assert course.duration == 0.0
-    assert course.at(5.0).position == 7.0
+    trajectory = first_trajectory(Drive(profile=Profile(smoothing=2.0), curve=CURVE, shaper=shaper(3.0), trip=trip))
+    assert trajectory.duration == 0.0
+    assert trajectory.at(5.0).position == 7.0
 
 
-def test_the_engine_follows_a_shaped_course_and_restarts_in_it() -> None:
+def test_the_simulator_follows_a_shaped_trajectory_and_restarts_in_it() -> None:
     names = {"profile.smoothing": 0.5, "shaper.impulses": 2.0, "trip.destination": 4.0}
     names |= {f"curve.a{k}": value for k, value in enumerate(SHARES, 1)}
     inputs = {"destination": 4.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0}

@@ -22,7 +22,7 @@ STILL = {"destination": 50.0, "car_end_tension": 0.0, "counterweight_end_tension
 ROPES = {"destination": 50.0, "car_end_tension": 1250.0, "counterweight_end_tension": 660.0}
 
 
-def engine(inputs: Mapping[str, Any] = STILL, start_time: float = 0.0, **parameters: float) -> DriveSimulator:
+def simulator(inputs: Mapping[str, Any] = STILL, start_time: float = 0.0, **parameters: float) -> DriveSimulator:
     names = {name.replace("__", "."): value for name, value in parameters.items()}
     return create(names, inputs, start_time)
 
@@ -44,29 +44,29 @@ def column(outputs: list[dict[str, Any]], name: str) -> np.ndarray:
 
 @pytest.fixture(scope="module")
 def up() -> list[dict[str, Any]]:
-    return run(engine(), [0.005] * 6200)
+    return run(simulator(), [0.005] * 6200)
 
 
-def test_declaration_has_no_problems_and_makes_an_engine() -> None:
-    face = interface()
-    assert interface_problems(face) == []
-    started = {one.name: one.start for one in face.variables if one.role != "output"}
-    inputs = {one.name: started.pop(one.name) for one in face.of_role("input")}
-    made = face.create(started, inputs, 0.0)
-    assert list(made.outputs()) == [one.name for one in face.of_role("output")]
-    assert all(type(made.outputs()[one.name]) is {"real": float, "boolean": bool}[one.kind] for one in face.of_role("output"))
+def test_declaration_has_no_problems_and_makes_a_simulator() -> None:
+    model = interface()
+    assert interface_problems(model) == []
+    started = {one.name: one.start for one in model.variables if one.role != "output"}
+    inputs = {one.name: started.pop(one.name) for one in model.of_role("input")}
+    made = model.create(started, inputs, 0.0)
+    assert list(made.outputs()) == [one.name for one in model.of_role("output")]
+    assert all(type(made.outputs()[one.name]) is {"real": float, "boolean": bool}[one.kind] for one in model.of_role("output"))
 
 
 def test_start_values_are_those_of_the_drive_given() -> None:
-    face = interface(Drive(trip=FirstTrip(destination=22.0), servo=Servo(torque_limit=7000.0)))
-    starts = {one.name: one.start for one in face.variables}
+    model = interface(Drive(trip=FirstTrip(destination=22.0), servo=Servo(torque_limit=7000.0)))
+    starts = {one.name: one.start for one in model.variables}
     assert starts["trip.destination"] == starts["destination"] == 22.0
     assert starts["servo.torque_limit"] == 7000.0
 
 
 @pytest.mark.parametrize("inputs", [STILL, ROPES])
 def test_nothing_moves_before_the_trip(inputs: dict[str, float]) -> None:
-    drive = engine(inputs, trip__start_position=20.0)
+    drive = simulator(inputs, trip__start_position=20.0)
     first = drive.outputs()
     assert (first["car_position"], first["counterweight_position"]) == (20.0, 30.0)
     assert run(drive, [0.01] * 99, inputs) == [first] * 99
@@ -75,7 +75,7 @@ def test_nothing_moves_before_the_trip(inputs: dict[str, float]) -> None:
 
 
 def test_holding_torque_counts_every_compensation_rope() -> None:
-    two, none = (engine(ROPES, rope__count=count).outputs()["motor_torque"] for count in (2.0, 0.0))
+    two, none = (simulator(ROPES, rope__count=count).outputs()["motor_torque"] for count in (2.0, 0.0))
     assert two - none == pytest.approx(2 * (1250.0 - 660.0) * 0.25)
 
 
@@ -136,18 +136,18 @@ def small_trip(load: float) -> tuple[list[dict[str, Any]], np.ndarray]:
 
 
 @pytest.mark.parametrize("load", [0.0, 100.0])
-def test_the_engine_answers_like_python_controls_closed_loop(load: float) -> None:
+def test_the_simulator_answers_like_python_controls_closed_loop(load: float) -> None:
     own, expected = small_trip(load)
     assert column(own, "car_position") == pytest.approx(expected[0, 1:], abs=1e-11)
     assert column(own, "encoder_position") == pytest.approx(expected[1, 1:], abs=1e-11)
 
 
 def test_a_load_stretches_the_rope_and_the_encoder_stays() -> None:
-    drive = engine(trip__destination=0.0)
+    drive = simulator(trip__destination=0.0)
     last = run(drive, [0.02] * 1000, {**STILL, "car_end_tension": 500.0})[-1]
     assert last["encoder_position"] == pytest.approx(0.0, abs=1e-7)
     assert last["car_position"] == pytest.approx(-2 * 500.0 * 54.0 / 3e7, rel=1e-4)
-    assert last["motor_torque"] - engine().outputs()["motor_torque"] == pytest.approx(2 * 500.0 * 0.25, rel=1e-4)
+    assert last["motor_torque"] - simulator().outputs()["motor_torque"] == pytest.approx(2 * 500.0 * 0.25, rel=1e-4)
 
 
 STEPS = {
@@ -162,18 +162,18 @@ STEPS = {
 @pytest.mark.parametrize("name", list(STEPS)[1:])
 def test_the_communication_step_does_not_matter(name: str) -> None:
     assert sum(STEPS[name]) == pytest.approx(3.0)
-    finest, other = (run(engine(), STEPS[which])[-1] for which in ("1 ms", name))
+    finest, other = (run(simulator(), STEPS[which])[-1] for which in ("1 ms", name))
     assert other == pytest.approx(finest, rel=1e-9, abs=1e-9)
 
 
 def test_a_controller_that_samples_slower_gives_nearly_the_same() -> None:
-    fast, slow = (run(engine(servo__sample_period=period), [0.02] * 250)[-1] for period in (0.001, 0.004))
+    fast, slow = (run(simulator(servo__sample_period=period), [0.02] * 250)[-1] for period in (0.001, 0.004))
     assert slow["car_position"] == pytest.approx(fast["car_position"], abs=1e-3)
 
 
 @pytest.mark.parametrize("step", [0.001, 0.0007])
 def test_a_restored_state_goes_on_bit_for_bit(step: float) -> None:
-    drive, other = engine(), engine(ROPES)
+    drive, other = simulator(), simulator(ROPES)
     run(drive, [step] * 2000)
     saved, time = drive.get_state(), 2000 * step
     on = run(drive, [step] * 200, ROPES, time)
@@ -185,7 +185,7 @@ def test_a_restored_state_goes_on_bit_for_bit(step: float) -> None:
 
 def test_only_its_own_states_are_accepted() -> None:
     with pytest.raises(InputError, match="state of 3 bytes: only a state saved by this version"):
-        engine().set_state(b"abc")
+        simulator().set_state(b"abc")
 
 
 def drive_to(drive: DriveSimulator, calls: Mapping[float, float], stop: float) -> list[dict[str, Any]]:
@@ -199,7 +199,7 @@ def drive_to(drive: DriveSimulator, calls: Mapping[float, float], stop: float) -
 
 
 def test_a_call_while_standing_begins_a_trip() -> None:
-    found = drive_to(engine(trip__destination=3.0), {10.0: 8.0}, 20.0)
+    found = drive_to(simulator(trip__destination=3.0), {10.0: 8.0}, 20.0)
     assert found[98]["trip_finished"]
     assert found[98]["reference_position"] == 3.0
     assert found[101]["moving"]
@@ -208,32 +208,32 @@ def test_a_call_while_standing_begins_a_trip() -> None:
 
 
 def test_the_latest_call_during_a_trip_is_answered_after_it() -> None:
-    found = drive_to(engine(trip__destination=3.0), {2.0: 20.0, 3.0: 1.0}, 20.0)
+    found = drive_to(simulator(trip__destination=3.0), {2.0: 20.0, 3.0: 1.0}, 20.0)
     assert max(column(found, "reference_position")) <= 3.0
     assert max(column(found, "reference_position")) > 2.99
     assert found[-1]["reference_position"] == 1.0
 
 
 def test_a_call_taken_back_during_the_trip_is_forgotten() -> None:
-    found = drive_to(engine(trip__destination=3.0), {2.0: 20.0, 3.0: 50.0}, 20.0)
+    found = drive_to(simulator(trip__destination=3.0), {2.0: 20.0, 3.0: 50.0}, 20.0)
     assert found[-1]["reference_position"] == 3.0
 
 
 def test_calls_do_not_depend_on_the_communication_step() -> None:
     inputs = {**STILL, "destination": 1.0}
-    ends = [run(engine(trip__destination=3.0), [step] * round(12 / step), inputs)[-1] for step in (0.004, 0.02)]
+    ends = [run(simulator(trip__destination=3.0), [step] * round(12 / step), inputs)[-1] for step in (0.004, 0.02)]
     assert ends[0]["reference_position"] == 1.0
     assert ends[1] == pytest.approx(ends[0], abs=1e-9)
 
 
 def test_a_run_may_start_at_any_time() -> None:
-    early = run(engine(trip__start_time=1.0), [0.02] * 200)[-1]
-    late = run(engine(start_time=1024.0, trip__start_time=1025.0), [0.02] * 200, time=1024.0)[-1]
+    early = run(simulator(trip__start_time=1.0), [0.02] * 200)[-1]
+    late = run(simulator(start_time=1024.0, trip__start_time=1025.0), [0.02] * 200, time=1024.0)[-1]
     assert late == pytest.approx(early, rel=1e-9, abs=1e-9)
 
 
 def test_a_motor_at_its_limit_arrives_later_without_swinging() -> None:
-    found = run(engine(servo__torque_limit=1900.0, plant__car_mass=2600.0, servo__position_bandwidth=2.0), [0.02] * 2000)
+    found = run(simulator(servo__torque_limit=1900.0, plant__car_mass=2600.0, servo__position_bandwidth=2.0), [0.02] * 2000)
     torque, position = column(found, "motor_torque"), column(found, "car_position")
     assert np.abs(torque).max() == pytest.approx(1900.0, rel=1e-12)
     assert position.max() < 50.001
@@ -243,7 +243,7 @@ def test_a_motor_at_its_limit_arrives_later_without_swinging() -> None:
 def test_a_motor_too_weak_is_an_error() -> None:
     text = r"car at .* m at t = .* s has left the shaft of 0 to 50 m: servo.torque_limit = 500 N.m"
     with pytest.raises(SimulationError, match=text):
-        run(engine(servo__torque_limit=500.0), [0.02] * 3000)
+        run(simulator(servo__torque_limit=500.0), [0.02] * 3000)
 
 
 def test_impossible_parameters_are_named_all_at_once() -> None:
@@ -284,4 +284,4 @@ def test_what_cannot_be_is_refused_at_the_start(parameters: dict[str, float], in
 
 def test_what_cannot_be_is_refused_on_the_way() -> None:
     with pytest.raises(InputError, match=r"counterweight_end_tension = nan N: a finite number is accepted; destination = 50.5 m"):
-        engine().step(0.0, 0.01, {**STILL, "destination": 50.5, "counterweight_end_tension": float("nan")})
+        simulator().step(0.0, 0.01, {**STILL, "destination": 50.5, "counterweight_end_tension": float("nan")})

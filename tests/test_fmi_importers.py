@@ -134,7 +134,7 @@ BROKEN = "no steps and outputs after an error, unless reset or restored; the err
         ("fixed", "parameter spring.mass = 3.0: fixed once the run has started; reset the FMU to change it", FATAL),
         ("nan", "Spring 'one' at t = 0.05 s: input force = nan: a finite number is accepted", FATAL),
         ("diverging", "the spring broke at node 3 at t = 0.06 s", FATAL * 4),
-        ("internal", "ZeroDivisionError in step, engine.py:27: float division by zero", FATAL * 4),
+        ("internal", "ZeroDivisionError in step, cosimulation.py:27: float division by zero", FATAL * 4),
         ("not_finite", "the model gave place[1] = nan; the step is too large or the model unstable", FATAL * 4),
         ("times", "step from 0.5 s: the time reached is 0.0 s, and only a step from there is accepted", FATAL * 5),
         ("foreign_state", "saved state: 11 bytes that are not a whole state of this FMU", FATAL),

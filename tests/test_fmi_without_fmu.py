@@ -146,11 +146,11 @@ def test_a_run_saved_before_it_began_can_begin_again() -> None:
 
 
 @given(st.dictionaries(st.text(), FINITE | st.booleans() | st.integers() | st.text()), FINITE, st.none() | FINITE, st.binary())
-def test_states_keep_every_bit(values: dict[str, Any], time: float, stop: float | None, engine: bytes) -> None:
+def test_states_keep_every_bit(values: dict[str, Any], time: float, stop: float | None, simulator: bytes) -> None:
     state = InstanceState("toy", values, {}, values, 0.0, stop, time, True, None)
-    back, engine_back = unpack(pack(state, engine), "toy")
+    back, simulator_back = unpack(pack(state, simulator), "toy")
     assert repr(back) == repr(state)  # tells -0.0 from 0.0 and True from 1
-    assert engine_back == engine
+    assert simulator_back == simulator
 
 
 @given(st.binary(), st.integers(0, 400))

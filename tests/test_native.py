@@ -80,10 +80,10 @@ def test_same_description_as_the_fmu_in_python(fmu: Path) -> None:
         assert [(one.tag, one.attrib) for one in own.find(tag).iter()] == [
             (one.tag, one.attrib) for one in other.find(tag).iter()
         ]
-    face = own.find("CoSimulation").attrib
+    cosimulation = own.find("CoSimulation").attrib
     told = ("needsExecutionTool", "canBeInstantiatedOnlyOncePerProcess")
     able = ("canGetAndSetFMUstate", "canSerializeFMUstate", "canHandleVariableCommunicationStepSize")
-    assert {face[name] for name in told} == {"false"} and {face[name] for name in able} == {"true"}
+    assert {cosimulation[name] for name in told} == {"false"} and {cosimulation[name] for name in able} == {"true"}
 
 
 @pytest.mark.skipif(not shutil.which("nm"), reason="nm is not installed")

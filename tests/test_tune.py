@@ -130,12 +130,12 @@ def test_the_car_bounces_as_the_drive_s_own() -> None:
     trip = FirstTrip(destination=6.0)
     drive = Drive(trip=trip, profile=Profile(jerk=8.0), rope=CompensationRopes(count=0.0))
     still = {"destination": 6.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0}
-    engine, trajectory, dt = DriveSimulator(drive, still, 0.0), first_trajectory(drive), 0.02
+    simulator, trajectory, dt = DriveSimulator(drive, still, 0.0), first_trajectory(drive), 0.02
     motion = sample_motion(trajectory, 10.0, dt)
     samples = []
     for k in range(len(motion.time)):
-        samples.append(engine.outputs()["car_acceleration"])
-        engine.step(k * dt, dt, still)
+        samples.append(simulator.outputs()["car_acceleration"])
+        simulator.step(k * dt, dt, still)
     added, _ = hoist_bounce(drive).ends(motion)
     error = np.sqrt(np.mean((np.array(samples) - motion.acceleration - added[2]) ** 2))
     # A quarter of the bounce, 0.13 m/s2, is left: how the servo itself follows so hard a jerk is left out.

@@ -1,1 +1,1 @@
-"""A mass on a spring: the smallest model with hidden state, to test the face with."""
+"""A mass on a spring: the smallest model with hidden state, to test FMUs with."""

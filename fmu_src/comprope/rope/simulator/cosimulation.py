@@ -1,4 +1,4 @@
-"""The rope as a model for co-simulation: its variables, and how an engine is made from their values."""
+"""The rope as a model for co-simulation: its variables, and the simulator made from their values."""
 
 from collections.abc import Mapping
 from functools import partial
