@@ -1,7 +1,7 @@
-"""Drive and rope in fmpy, stepped by hand: `python docs/fmpy_trip.py dist/ElevatorDrive.fmu dist/CompensationRope.fmu trip.csv`.
+"""Co-simulation with fmpy: `python docs/fmpy_trip.py dist/ElevatorDrive.fmu dist/CompensationRope.fmu trip.csv`.
 
-The drive steps first, under the rope's tensions of the step before; the rope then follows the drive's motion of this step.
-A fourth argument is how long to simulate [s].
+The drive steps first, with the tensions of the rope after the previous step; then the rope, with the motion of the drive in
+this step. The optional fourth argument is the simulated time [s].
 """
 
 import csv
@@ -20,7 +20,7 @@ SHOWN = ["lateral_displacement[1]", "sheave_displacement", "sheave_force"]
 
 
 class Part:
-    """One FMU, set and read by names."""
+    """One FMU instance with access by variable names."""
 
     def __init__(self, path: str, name: str) -> None:
         description = read_model_description(path)
@@ -49,18 +49,18 @@ class Part:
         return dict(zip(chosen, self.fmu.getReal([self.references[name] for name in chosen]), strict=True))
 
     def close(self) -> None:
-        """End and free it."""
+        """Terminate and free the instance."""
         self.fmu.terminate()
         self.fmu.freeInstance()
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
 def main(drive_path: str, rope_path: str, out: str, duration: str = "33") -> None:
-    """Simulate the FMUs' own trip and write it as CSV."""
+    """Simulate the first trip of the drive and write the results as CSV."""
     drive, rope = Part(drive_path, "drive"), Part(rope_path, "rope")
-    # What the rope gets is the drive's motion at the end of the step, with velocities and accelerations.
+    # The inputs of the rope are the drive's motion at the end of the step, with velocities and accelerations.
     rope.switch(["inputs_at_end", "derivative_inputs"])
-    for _ in range(2):  # the tensions at rest belong to the ends' heights, and the drive must feel them
+    for _ in range(2):  # the static tensions depend on the positions of the ends, and are inputs of the drive
         rope.set(drive.get(MOTIONS))
         drive.set(rope.get(TENSIONS))
     for part in (drive, rope):
@@ -82,7 +82,7 @@ def main(drive_path: str, rope_path: str, out: str, duration: str = "33") -> Non
 
 
 def row(time: float, drive: Part, rope: Part) -> list[float]:
-    """What is written for each step."""
+    """One row of results."""
     return [round(time, 9), *drive.get(["car_position"]).values(), *rope.get(SHOWN).values()]
 
 

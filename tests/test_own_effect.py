@@ -86,7 +86,7 @@ def command(capsys, *arguments):
 
 def test_the_tutorial_shows_the_file_as_it_is():
     text = (DOCS / "own_effect.md").read_text()
-    name = re.search(r"\[(examples/\w+\.py)\]\(\1\), whole:\n\n```python\n", text)
+    name = re.search(r"\[(examples/\w+\.py)\]\(\1\):\n\n```python\n", text)
     shown = text[name.end() :].partition("\n```")[0]
     assert shown + "\n" == (DOCS / name[1]).read_text()
 
@@ -97,7 +97,7 @@ def test_the_example_runs_with_consent_and_not_without(capsys, monkeypatch, tmp_
     status, told, errors = command(capsys, "simulate", model, *quick)
     file = EXAMPLES / "rail_joints.py"
     ways = "comprope --allow-code ..., build_fmu.py --allow-code, or COMPROPE_ALLOW_CODE=1"
-    refusal = f"would be run as a program; read it, then allow it: {ways}"
+    refusal = f"would be executed as a program; inspect it, then allow it: {ways}"
     assert (status, told, errors) == (2, "", f"{model}: own_effects: {file} {refusal}\n")
     assert "rail_joints" not in REGISTRY
     status, _, errors = command(capsys, "--allow-code", "simulate", model, "--time", "0", "--set", "shaft.pit=-1")
@@ -113,7 +113,8 @@ def test_values_are_accepted_as_declared(examples):
     with pytest.raises(InputError) as caught:
         with_changes(examples, {"effects.rail_joints.kick": 1.0, "effects.pit_brush.dampin": 1.0})
     assert str(caught.value).splitlines() == [
-        "change: effects.rail_joints.kick = 1.0: a number from 0 to 0.1 m is accepted (how far a joint pushes the car sideways)",
+        "change: effects.rail_joints.kick = 1.0: a number from 0 to 0.1 m is accepted "
+        "(lateral displacement of the car at a joint)",
         'change: effects.pit_brush.dampin = 1.0: unknown key; did you mean "damping"?',
     ]
 
@@ -236,7 +237,7 @@ def test_the_command_that_builds_fmus_asks_for_consent_too(examples, tmp_path):
 
     refused = built()
     assert refused.returncode == 2 and len(refused.stderr.splitlines()) == len(FILES["own_effects"]) and not list(out.iterdir())
-    assert "rail_joints.py would be run as a program" in refused.stderr
+    assert "rail_joints.py would be executed as a program" in refused.stderr
     assert built("--allow-code").returncode == 0
     variables = {one.name: one for one in read_model_description(str(out / "CompensationRope.fmu")).modelVariables}
     assert float(variables["effects.rail_joints.kick"].start) == 0.005 and variables["effects.rail_joints.kick"].unit == "m"

@@ -1,13 +1,13 @@
-"""A brush in the pit that slows the rope's sideways motion: per metre of rope, f = -damping v_y below a height."""
+"""A brush in the pit that damps the lateral motion of the rope: per metre of rope, f = -damping v_y below a height."""
 
 from comprope.effect import Effect, acts, kernel, quantity, register, slot, work
 
 
 class PitBrush(Effect):
-    """A brush round the rope in the pit."""
+    """A brush around the rope in the pit."""
 
     name = "pit_brush"
-    damping: float = quantity("N.s/m2", "force per length of rope and sideways velocity", 0.0, 100.0, nominal=1.0, off=0.0)
+    damping: float = quantity("N.s/m2", "force per length of rope and lateral velocity", 0.0, 100.0, nominal=1.0, off=0.0)
     top: float = quantity("m", "height of the brush's upper edge above the bottom landing", -20.0, 100.0, default=0.5)
 
 
@@ -30,7 +30,7 @@ def brush(n, t, p, q, v, w, f):
 
 @kernel
 def brush_tangent(n, t, p, q, v, w, A, weights):
-    """Subtract cc times the derivative of that force by velocity."""
+    """Subtract cc times the derivative of this force with respect to velocity."""
     cc = weights.cc
     for i in range(1, n - 1):
         if -q[i] < p[TOP]:

@@ -1,7 +1,7 @@
-"""The car sways where its guide rails are joined.
+"""Lateral displacement of the car at the joints of its guide rails.
 
-Each joint pushes the end of the rope towards the counterweight's side, y = kick ((1 + cos(k z)) / 2)^2 with k = 2 pi / spacing,
-where z is the car's height: the kick at a joint, nothing half-way between two.
+Each joint displaces the end of the rope towards the counterweight side, y = kick ((1 + cos(k z)) / 2)^2 with k = 2 pi / spacing,
+where z is the car's height: `kick` at a joint, zero half-way between two.
 """
 
 from math import cos, pi, sin
@@ -14,7 +14,7 @@ class RailJoints(Effect):
 
     name = "rail_joints"
     probes = {"spacing": (2.5, 5.0)}
-    kick: float = quantity("m", "how far a joint pushes the car sideways", 0.0, 0.1, nominal=0.005, off=0.0)
+    kick: float = quantity("m", "lateral displacement of the car at a joint", 0.0, 0.1, nominal=0.005, off=0.0)
     spacing: float = quantity("m", "distance of the joints", 0.5, 20.0, default=2.5)
 
 
@@ -25,7 +25,7 @@ SPACING = slot("effects.rail_joints.spacing")
 
 @kernel
 def sway(n, t, p, q, v, a):
-    """Move the end under the car, node 0; its velocity and acceleration follow from the car's."""
+    """Displace the end under the car, node 0, with velocity and acceleration."""
     k = 2.0 * pi / p[SPACING]
     angle, rate, change = -k * q[0], -k * v[0], -k * a[0]
     c, s = cos(angle), sin(angle)

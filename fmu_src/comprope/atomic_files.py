@@ -50,7 +50,7 @@ def require_writable(path: str | Path, kind: str | None = None) -> None:
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"{path}: its folder cannot be made: {error.strerror}") from None
+        raise InputError(f"{path}: its folder cannot be created: {error.strerror}") from None
     if target.is_dir():
         raise InputError(f"{path}: is a folder; give the name of a file")
     if not os.access(target.parent, os.W_OK):

@@ -1,4 +1,4 @@
-"""Model files: a rope model as TOML, read with all its problems reported at once, written whole or not at all."""
+"""Model files: a rope model as TOML, read with all its errors reported at once, written completely or not at all."""
 
 import os
 import re
@@ -19,7 +19,7 @@ _NO_KEY = "not the key of a single value in this model, such as sheave.mass or s
 
 
 def load(path: str | Path, *, allow_code: bool = False) -> RopeModel:
-    """The rope model in a TOML file; `allow_code` is consent to run the files that it names under `own_effects`.
+    """The rope model in a TOML file; `allow_code` is consent to execute the files named in `own_effects`.
 
     Raises `InputError` naming every problem of the file, one line each: key, value and what is accepted.
     """
@@ -32,7 +32,7 @@ def load(path: str | Path, *, allow_code: bool = False) -> RopeModel:
 def dump(model: RopeModel, path: str | Path, comment: str = "") -> None:
     """Write the model as a TOML file that `load` reads back equal; `comment` heads the file.
 
-    The file appears whole or not at all. Raises `InputError` if it cannot be written.
+    The file is written completely or not at all. Raises `InputError` if it cannot be written.
     """
     import tomli_w  # needed for writing only, so that an FMU, which reads, does without it
 
@@ -52,7 +52,7 @@ def with_changes(model: RopeModel, changes: Mapping[str, Any], source: str = "ch
 
     A key is the path of a value in the model file; `sensors[1].height` is the first sensor's. Naming
     a parameter of an absent effect brings the effect in. Raises `InputError` as `load` does, each
-    line begun by `source`, which tells where the changes come from.
+    line prefixed by `source`, the origin of the changes.
     """
     table = as_table(model)
     for key, value in changes.items():
@@ -64,9 +64,9 @@ def with_changes(model: RopeModel, changes: Mapping[str, Any], source: str = "ch
 
 
 def validated(table: Mapping[str, Any], source: str) -> RopeModel:
-    """The model a table describes; `source` begins each line of the `InputError` if it describes none.
+    """The model of a table; each line of an `InputError` begins with `source`.
 
-    Files with effects of a user's own stand in it by their absolute paths, or relative to where the program runs.
+    Files of user-defined effects are absolute paths, or relative to the working directory.
     """
     files = _own_files(table)
     if unknown := [file for file in files if file not in user_effects.FILES]:
@@ -87,7 +87,7 @@ def as_table(model: RopeModel) -> dict[str, Any]:
 
 
 def bundle(model: RopeModel) -> dict[str, bytes]:
-    """A folder for an FMU, by the files' paths in it: model.toml and the files of own effects that it names."""
+    """Files of a model for an FMU, by path: model.toml and the files of user-defined effects."""
     with TemporaryDirectory() as folder:
         inside = Path(folder).resolve()
         renamed = [inside / "own_effects" / f"{k}_{Path(file).name}" for k, file in enumerate(model.own_effects, 1)]
@@ -99,7 +99,7 @@ def bundle(model: RopeModel) -> dict[str, bytes]:
 
 
 def _own_files(table: Mapping[str, Any]) -> list[str]:
-    """What stands under own_effects; nothing where that is no list of texts, which validation will tell."""
+    """The value of own_effects; empty if it is not a list of strings, which is reported by the validation."""
     files = table.get("own_effects", ())
     return list(files) if isinstance(files, list | tuple) and all(isinstance(one, str) for one in files) else []
 
@@ -118,7 +118,7 @@ def _admitted(files: Iterable[Path], source: str, allow_code: bool = False) -> l
 
 
 def _seen_from(folder: Path, file: str) -> str:
-    """The path of a file relative to a folder; as it is where there is no way from one to the other, on another drive."""
+    """The path of a file relative to a folder; unchanged if they are on different drives."""
     try:
         return Path(os.path.relpath(file, folder)).as_posix()
     except ValueError:
@@ -136,7 +136,7 @@ def read_toml(path: str | Path) -> dict[str, Any]:
 
 
 def _frozen(value: Any) -> Any:
-    """The same tables with tuples for lists, as the frozen components want them."""
+    """The same tables with tuples in place of lists, as required by frozen components."""
     if isinstance(value, Mapping):
         return {key: _frozen(item) for key, item in value.items()}
     return tuple(map(_frozen, value)) if isinstance(value, list) else value
@@ -150,7 +150,7 @@ def _path(key: str) -> list[str | int]:
 
 
 def _assign(table: dict[str, Any], path: list[str | int], value: Any) -> None:
-    """Put a value at a path, making tables on the way; `LookupError` where the path leads nowhere."""
+    """Set the value at a path, creating tables as needed; raises `LookupError` for an invalid path."""
     place: Any = table
     for part in path[:-1]:
         if isinstance(place, list) and isinstance(part, int):

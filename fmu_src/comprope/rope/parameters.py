@@ -1,4 +1,4 @@
-"""What a rope model is: its components, each quantity declared once."""
+"""Parameters of a rope model, each declared once."""
 
 from typing import Literal
 
@@ -35,7 +35,7 @@ class Rope(Component):
 
 
 class Sheave(Component):
-    """The share of one rope in the compensation sheave, free to move vertically and to turn."""
+    """Compensation sheave, free to move vertically and to rotate; mass and inertia are the share of one rope."""
 
     mass: float = quantity("kg", "mass", 0.1, 20000.0, nominal=120.0)
     radius: float = quantity("m", "radius to the rope's centre line", 0.05, 3.0, nominal=0.4)
@@ -54,24 +54,24 @@ class Contact(Component):
 
 
 class Solver(Component):
-    """Time integration; the defaults suit whole trips."""
+    """Time integration; the defaults are suitable for complete trips."""
 
     step: float = quantity("s", "largest time step", 1e-5, 0.02, default=DEFAULT_STEP)
     numerical_damping: float = quantity(
-        "1", "0 is the paper's Newmark-beta; above, high-frequency ringing is damped (HHT alpha)", 0.0, 1.0 / 3.0, default=0.15
+        "1", "HHT alpha: damping of high-frequency vibration; 0 is the paper's Newmark-beta rule", 0.0, 1.0 / 3.0, default=0.15
     )
 
 
 class Sensor(Component):
     """A displacement sensor fixed in the shaft."""
 
-    name: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", description="name of the sensor, letters, digits and underscores")
-    side: Literal["car", "counterweight"] = Field(description="the side of the rope it looks at")
+    name: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", description="name of the sensor: letters, digits and underscores")
+    side: Literal["car", "counterweight"] = Field(description="side of the rope on which it measures")
     height: float = quantity("m", "height above the bottom landing; negative in the pit", -20.0, 1000.0, nominal=10.0)
 
 
 class Base(Component):
-    """A rope model without the effects: what the paper's eq. (1) and (2) need."""
+    """A rope model without effects: the parameters of the paper's eq. (1) and (2)."""
 
     shaft: Shaft
     rope: Rope

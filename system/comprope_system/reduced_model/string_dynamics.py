@@ -85,7 +85,7 @@ def string_parameters(model: Base) -> StringParameters:
     if weight <= least:
         raise InputError(
             f"sheave.mass = {sheave.mass:g} kg: more than {2.0 * least / g - wrapped:.4g} kg is accepted for tuning; a lighter "
-            "sheave hangs in a free loop of rope, which the search does not know"
+            "sheave hangs in a free loop of rope, for which the reduced model is not valid"
         )
     rotating_mass, vertical_mass = 0.5 * (sheave.inertia / sheave.radius**2 + wrapped), 0.5 * (sheave.mass + wrapped)
     damping = rope.external_damping / rope.mass_per_length

@@ -1,4 +1,4 @@
-"""Join the kernels and the effects of a model into the few functions that Python and C call.
+"""Entry points for Python and C: the kernels linked with the effects of a model.
 
 The joined functions live in a small file of their own in the user's cache folder, named by the
 content of every kernel they contain. So they are compiled once for a machine, whichever copy of this

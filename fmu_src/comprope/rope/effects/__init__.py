@@ -33,32 +33,32 @@ class RopeModel(Base):
     )
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickled as plain tables, since the type itself is made at run time; own effects go with their source."""
+        """Pickled as plain tables, since the type is created at run time; user-defined effects include their source."""
         return restored, (self.model_dump(exclude_none=True), {path: user_effects.FILES[path].text for path in self.own_effects})
 
 
 def restored(table: dict[str, Any], sources: Mapping[str, str]) -> RopeModel:
-    """The model of a table, with its own effects by file and source: who pickled it had consented to run them."""
+    """The model of a table with user-defined effects by file and source; consent was given before pickling."""
     for path, text in sources.items():
         user_effects.admit(path, text)
     return model_type(table["own_effects"]).model_validate(table)
 
 
 def model_type(files: Iterable[str] = ()) -> type[RopeModel]:
-    """The model type with a field for every effect of comprope and of these files, which have been admitted."""
+    """The model type with a field for every built-in effect and every effect of these files, which must be registered."""
     names = {name for path in files for name in user_effects.FILES[path].effects}
     return _type_with(tuple(one for one in REGISTRY.items() if not one[1].source or one[0] in names))
 
 
 def names_of(model: Base) -> tuple[str, ...]:
-    """The effects that a model may have: those of comprope and those of its own files."""
+    """Names of the effects that a model may have: built-in ones and those of its own files."""
     fields = getattr(type(getattr(model, "effects", None)), "model_fields", {})
     return tuple(name for name, effect in REGISTRY.items() if not effect.source or name in fields)
 
 
 @cache
 def _type_with(registered: tuple[tuple[str, type[Effect]], ...]) -> type[RopeModel]:
-    """One type for one set of effects, so that models read apart can be equal."""
+    """One type for each set of effects, so that models read separately can be equal."""
     fields: dict[str, Any] = {name: (effect | None, None) for name, effect in registered}
     fields |= {name: (dict[str, float] | None, Field(None, description=help)) for name, help in INSTRUMENT.items()}
     effects = create_model("Effects", __base__=Component, **fields)

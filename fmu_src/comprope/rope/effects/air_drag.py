@@ -1,4 +1,4 @@
-"""Air drag on the rope, in still air or in the flow that the car drives through the shaft.
+"""Air drag on the rope, in still air or in a lateral flow caused by the car.
 
 Per length, f = -1/2 rho_air C_d d |v_n| v_n, where v_n is the part of the relative velocity normal to
 the rope (cross-flow principle, Hoerner 1965). Along the rope there is none. `shaft_airflow` blows

@@ -1,4 +1,4 @@
-"""What an effect is: quantities declared once, and kernels for the places where it acts.
+"""Base class of effects: declared quantities, and kernels for the hooks at which they act.
 
 An effect may act in these ways, each a kernel of fixed arguments (n nodes, m = n + 1 columns per
 section, see `runtime.array_layout`; HOOKS):
@@ -38,10 +38,10 @@ HOOKS = {
 HOOK_TYPES: dict[str, Any] = {"n": int, "t": float, "angle": float, "weights": Weights}  # all others are arrays
 # What instruments do to what they show: one value per channel. No part of the rope, so the kernels know nothing of it.
 INSTRUMENT = {
-    "sensor_gain": "what a channel shows over what is there, by the channel's column",
-    "sensor_offset": "what a channel shows when there is nothing, in SI units, by the channel's column",
-    "sensor_delay": "how late a channel shows it [s], by the channel's column",
-    "sensor_drift": "how fast a channel's offset grows from a record's start, in SI units a second, by the channel's column",
+    "sensor_gain": "measured / true value of a channel, by the channel's column",
+    "sensor_offset": "measured value of a channel for a true value of zero, in SI units, by the channel's column",
+    "sensor_delay": "delay of a channel [s], by the channel's column",
+    "sensor_drift": "rate of a channel's offset from the start of a record, in SI units per second, by the channel's column",
 }
 
 
@@ -71,7 +71,7 @@ REGISTRY: dict[str, type[Effect]] = {}
 def register(effect: type[Effect]) -> type[Effect]:
     """Give the effect its slots in the parameter vector and its sections of history.
 
-    Raises `InputError` for a name that is none or is taken.
+    Raises `InputError` for an invalid name or one in use.
     """
     name = getattr(effect, "name", "")
     if not re.fullmatch("[a-z][a-z0-9_]*", name):
@@ -91,7 +91,7 @@ def sections(names: Iterable[str]) -> int:
 
 
 def acts(effect: type[Effect], **hooks: Kernel) -> None:
-    """Say where an effect acts: `acts(AirDrag, forces=..., tangents=...)`; raises `InputError` for another place."""
+    """Assign kernels to hooks: `acts(AirDrag, forces=..., tangents=...)`; raises `InputError` for unknown hooks."""
     unknown = set(hooks) - set(HOOKS)
     if unknown:
         raise InputError(f"{effect.name}: no such hook: {', '.join(sorted(unknown))}; there are {', '.join(HOOKS)}")

@@ -1,4 +1,4 @@
-"""Friction between the wires of a bent rope: a Dahl moment beside the elastic one.
+"""Bending hysteresis by friction between wires: a Dahl moment in addition to the elastic one.
 
 M = M_f z with dz = (dkappa - |dkappa| z) / kappa_y, so that z runs to +-1 (Dahl 1976). Within a step the
 curvature is taken as monotonic and z is integrated exactly. z is zero in the shape the rope hangs in

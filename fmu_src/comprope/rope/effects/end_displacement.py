@@ -1,4 +1,4 @@
-"""What moves the rope's ends sideways: a swaying building, and attachments out of line.
+"""Lateral displacement of the rope's ends: building sway and attachment offsets.
 
 Inside, +y points from the car's side to the counterweight's; the attachment offsets are outward.
 """
@@ -24,7 +24,7 @@ class BuildingSway(Effect):
 
 
 class AttachmentOffset(Effect):
-    """Rope ends that do not hang over the sheave's sides."""
+    """Lateral offsets of the rope's ends relative to the sides of the sheave."""
 
     name = "attachment_offset"
     car: float = quantity("m", "outward offset of the end under the car", -0.5, 0.5, default=0.0, nominal=0.01)

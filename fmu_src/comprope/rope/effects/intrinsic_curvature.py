@@ -1,4 +1,4 @@
-"""A rope that is bent by nature: it is free of moment at a curvature of its own, M = EI (kappa - kappa_0)."""
+"""Intrinsic curvature of the rope, at which its bending moment is zero: M = EI (kappa - kappa_0)."""
 
 from ...quantities import quantity
 from ..runtime.array_layout import BEND_RATE, MOMENT
@@ -8,7 +8,7 @@ from .base import Effect, acts, register
 
 
 class IntrinsicCurvature(Effect):
-    """The rope's own curvature, from the drum it came on."""
+    """Curvature of the rope without load, from storage on a drum."""
 
     name = "intrinsic_curvature"
     curvature: float = quantity("1/m", "curvature without moment, positive as on the sheave", -5.0, 5.0, nominal=0.1, off=0.0)

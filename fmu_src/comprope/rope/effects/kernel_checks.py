@@ -1,6 +1,6 @@
-"""Consistency of a user's own effect: its kernels compile, are finite, do nothing when neutral, and agree with each other.
+"""Consistency checks of user-defined effects: kernels compile, are finite, vanish at neutral values, and agree with each other.
 
-What is asked holds for every effect of comprope: powers are those of the forces, velocities are derivatives of positions,
+The requirements are met by every built-in effect: powers are those of the forces, velocities are derivatives of positions,
 and tangents of forces. Tangents may leave out what is small.
 """
 
@@ -53,7 +53,7 @@ def _uncompilable(function: Any, hook: str) -> str | None:
 
 
 def _compiler_words(lines: Sequence[str]) -> str:
-    """What numba says, in one sentence."""
+    """The error message of numba, in one sentence."""
     place = next((line.partition(", line ")[2].split(":")[0] for line in lines if line.startswith("File ")), "")
     reason = next((line for line in lines if line and not line.startswith("Failed in")), "")
     if reason.startswith("No implementation"):
@@ -63,7 +63,7 @@ def _compiler_words(lines: Sequence[str]) -> str:
 
 
 def _useless(effect: type[Effect], hook: str) -> str | None:
-    """What is wrong with what a hook returns and leaves behind, at neutral and at nominal values."""
+    """Problems with the results of a hook at neutral and at nominal values."""
     for state in ("neutral", "nominal"):
         trial = Trial(effect, nominal=state == "nominal")
         before = {name: array.copy() for name, array in trial.at.items() if isinstance(array, np.ndarray)}
@@ -155,7 +155,7 @@ def _mover(array: Floats, k: int) -> Callable[[float], None]:
 
 
 def _dense(band: Floats) -> Floats:
-    """The matrix that a band stands for."""
+    """The dense matrix of a band."""
     m, rows = NODES + 1, band.reshape(BAND, NODES + 1)
     full = np.zeros((2 * m, 2 * m))
     for apart, first in _BLOCKS:

@@ -1,4 +1,4 @@
-"""A groove whose circle is not centred on the axle: its centre goes round with the sheave's angle."""
+"""Eccentricity of the sheave: the centre of the groove's circle rotates about the axle."""
 
 from math import cos, pi, sin
 
@@ -9,7 +9,7 @@ from .base import Effect, acts, register
 
 
 class SheaveEccentricity(Effect):
-    """Runout of the groove."""
+    """Eccentricity (runout) of the groove."""
 
     name = "sheave_eccentricity"
     polar = ("eccentricity", "phase")

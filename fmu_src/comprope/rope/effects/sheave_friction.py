@@ -1,4 +1,4 @@
-"""What resists the sheave's own motion: its bearing, its guides, and a tie-down damper.
+"""Friction and damping of the sheave's motion: bearing, guides, and a tie-down damper.
 
 Coulomb forces are regularised, F = F_c v / sqrt(v^2 + v_0^2), with v_0 well below working speeds.
 """

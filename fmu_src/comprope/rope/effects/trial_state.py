@@ -1,4 +1,4 @@
-"""A rope on which an effect's kernels can be tried alone: it hangs from ends some 20 m and 30 m up, bent and moving at random."""
+"""A random state of a rope for tests of an effect's kernels, with ends at about 20 m and 30 m."""
 
 from collections.abc import Callable
 from typing import Any
@@ -46,7 +46,7 @@ class Trial:
         internal_forces.bend(n, p, w)
 
     def call(self, hook: str) -> Any:
-        """What a hook returns; its arrays are `at`."""
+        """Return value of a hook; its arrays are `at`."""
         return self.effect.hooks[hook](*(self.at[name] for name in HOOKS[hook].split(", ")))
 
     def forces(self) -> Floats:

@@ -1,7 +1,7 @@
-"""Effects of a user's own: small Python files that a model file names, run once for a process and with consent.
+"""User-defined effects: Python files named in a model file, executed once per process and only with consent.
 
-A file is known by its content, so a copy of it elsewhere is the same file. What it registers stays registered, but only
-models that name the file have its effects. A file that fails leaves nothing behind.
+A file is identified by its content, so that copies are the same file. Its effects remain registered, but only
+models that name the file have them. A file that fails registers nothing.
 """
 
 import ast
@@ -28,7 +28,7 @@ API = "comprope.effect"  # the module such a file imports; see `_names_at_hand`
 
 @dataclass(frozen=True)
 class OwnFile:
-    """A file that has been run: its source and the names of the effects it registered."""
+    """An executed file: its source and the names of its effects."""
 
     text: str
     effects: tuple[str, ...]
@@ -47,12 +47,12 @@ def read(path: Path, *, allow_code: bool = False) -> None:
     text = read_text_file(path)
     if _same(text) is None and not (allow_code or consent.given()):
         allow = f"comprope --allow-code ..., build_fmu.py --allow-code, or {consent.VARIABLE}=1"
-        raise InputError(f"{path} would be run as a program; read it, then allow it: {allow}")
+        raise InputError(f"{path} would be executed as a program; inspect it, then allow it: {allow}")
     admit(str(path), text)
 
 
 def admit(path: str, text: str) -> None:
-    """Run the source of a file, which lies at `path`, unless it has been run."""
+    """Execute the source of the file `path`, unless it has been executed before."""
     with _LOCK:
         if path in FILES and FILES[path].text != text:
             raise InputError(f"{path}: has changed since it was run; start the program again")
@@ -61,7 +61,7 @@ def admit(path: str, text: str) -> None:
 
 @contextmanager
 def lent(path: str, text: str) -> Iterator[None]:
-    """An effect that comprope lends itself for a while; it is forgotten afterwards."""
+    """Context in which an internal effect is registered temporarily."""
     kept: list[tuple[Any, dict[str, Any]]] = [(table, dict(table)) for table in (REGISTRY, DECLARED, FILES)]
     admit(path, text)
     try:
@@ -119,7 +119,7 @@ def _names_at_hand() -> Iterator[None]:
 
 
 class _WrongError(Exception):
-    """What is wrong, and in which line."""
+    """An error with its line number."""
 
     def __init__(self, text: str, line: int) -> None:
         super().__init__(text)
@@ -127,7 +127,7 @@ class _WrongError(Exception):
 
 
 def _sentence(path: str, error: BaseException) -> str:
-    """One sentence with file and line for whatever a file raised."""
+    """One sentence with file and line for any exception raised by a file."""
     line = getattr(error, "line", None) or getattr(error, "lineno", None)
     trace = error.__traceback__
     while trace is not None and not isinstance(error, _WrongError | SyntaxError):

@@ -47,7 +47,7 @@ _OUTPUTS = (  # name, unit, nominal, help
         "largest outward displacement on the counterweight's side, above the axle",
     ),
     ("counterweight_side_max_height", "m", 10.0, "height of that displacement above the bottom landing"),
-    ("energy_residual", "J", 1.0, "stored energy less its start, less work put in, plus losses: zero for an exact run"),
+    ("energy_residual", "J", 1.0, "energy balance: stored energy - initial value - work + losses; zero for exact integration"),
 )
 _COUNTS = (
     ("newton_iterations", "Newton iterations since the start"),
@@ -94,7 +94,7 @@ def model_of(parameters: Mapping[str, Any], own_effects: tuple[str, ...] = ()) -
 
 
 def _active(effect: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """The parameters of an effect, or nothing where all are neutral."""
+    """The parameters of an effect; empty if all are neutral."""
     prefix = f"effects.{effect}."
     own = {name: value for name, value in parameters.items() if name.startswith(prefix)}
     changed = any(value != DECLARED[name].neutral for name, value in own.items())
@@ -112,7 +112,7 @@ def _sensor(k: int, parameters: Mapping[str, Any]) -> dict[str, Any]:
 
 
 class RopeSimulator:
-    """One rope that follows its inputs."""
+    """Simulator of one rope with inputs and outputs by name."""
 
     def __init__(self, model: Base, options: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> None:
         self.rope = CompensationRope(model)
@@ -134,7 +134,7 @@ class RopeSimulator:
         self.rope.step(dt, self.motion.path(time, dt, inputs))
 
     def outputs(self) -> Mapping[str, Value]:
-        """Every output by name, at the time reached."""
+        """All outputs by name at the current time."""
         return self.rope.all_outputs()
 
     def get_state(self) -> bytes:

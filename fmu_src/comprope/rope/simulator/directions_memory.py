@@ -1,4 +1,4 @@
-"""The memory of directions for one rope: what they are, how the motion answers them, and room for the kernels."""
+"""Arrays of the directional derivatives of one rope: directions, derivatives, and workspace of the kernels."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""The rope as an object: bring it to rest, move its ends, read its sensors and outputs."""
+"""The rope as an object: static equilibrium, time steps, sensors and outputs."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -68,7 +68,7 @@ class CompensationRope:
         self.require_success(self.workspace.start_at_rest(t=time))
 
     def check_reach(self, car: float, counterweight: float, time: float) -> None:
-        """Refuse ends [m] between which the rope cannot hang; raises InputError."""
+        """Raise `InputError` for positions of the ends [m] that the rope cannot have."""
         self.workspace.ends.u[[CAR, COUNTERWEIGHT]] = car, counterweight
         require_success(self.workspace.check_reach(t=time), self.workspace.work.message)
 
