@@ -9,8 +9,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from comprope.rope.model_file import load
+from comprope.rope.simulator.rope import CompensationRope
 from comprope_system import cli
-from comprope_system.prescribed_trip import record, trip_of
+from comprope_system.prescribed_trip import record, side_shape, trip_of
+from comprope_system.presets import model_path
 from comprope_system.report.page import Animation, Section, save_page
 from comprope_system.simulation.animation.encoding import Trace, film, packed, unpacked
 from comprope_system.simulation.animation.frames import ARC, DOWN, MOST, POINTS, Camera, Frame, look
@@ -104,7 +107,9 @@ def test_the_longest_page_stays_below_2_mb(tmp_path, monkeypatch):
     """As many frames as there can be, of noise, with the traces of eight sensors."""
     random = np.random.default_rng(1)
     frames = [Frame(random.random(2), random.random((2, POINTS)), random.random((2, ARC)), 0.0, 0.0) for _ in range(MOST + 1)]
-    monkeypatch.setattr("comprope_system.simulation.animation.encoding.at_rest", lambda model, frames: [one.sides for one in frames])
+    monkeypatch.setattr(
+        "comprope_system.simulation.animation.encoding.at_rest", lambda model, frames: [one.sides for one in frames]
+    )
     traces = [Trace(str(k), "mm", random.random(2400), random.random(2400)) for k in range(12)]
     moving = Animation("trip", film(MODEL, frames, 0.05, traces))
     save_page(tmp_path / "long.html", "long", "", [Section("a", "A", [moving])])
@@ -119,8 +124,18 @@ def test_a_page_needs_no_network(trip):
     assert not re.search(r"<script[^>]*src=", page)
 
 
-def test_sides_are_sampled_from_end_to_axle():
-    assert DOWN[0] == 0.0 and DOWN[-1] == 1.0 and (np.diff(DOWN) > 0).all()
+def test_a_side_is_drawn_from_its_end_to_the_axle_and_finely_where_it_bends():
+    """Straight lines between the points differ from the rope by less than the width of a line, also where it bends onto the sheave."""
+    rope = CompensationRope(load(model_path("tower50")))
+    rope.settle(20.0, 30.0)
+    axle = -rope.state.q[rope.n]
+    for points, side, end in zip(look(rope).sides, ("car", "counterweight"), (20.0, 30.0), strict=True):
+        heights = end + DOWN * (axle - end)
+        assert (heights[0], heights[-1]) == pytest.approx((end, axle))
+        between = np.linspace(axle + 1e-3, end - 1e-3, 4000)
+        drawn = np.interp(between, heights[::-1], points[::-1])
+        # 0.5 mm with points closer together near the sheave; 4 to 7 mm if they were evenly spread.
+        assert drawn == pytest.approx(side_shape(rope, side, between), abs=1e-3)
 
 
 # -- in a browser --------------------------------------------------------------------------------------

@@ -9,8 +9,9 @@ from comprope.errors import InputError
 from comprope.rope.runtime import array_layout
 from comprope.rope.runtime.kernel_arguments import Motion, Weights, Workspace
 from comprope.rope.simulator.rope import CompensationRope
+from comprope_system.modal import linearisation
 from comprope_system.modal.hanging_string import HangingString, mass_for_period, side_string
-from comprope_system.modal.linearisation import STICK, _interpreted, linearise
+from comprope_system.modal.linearisation import _interpreted, linearise
 from comprope_system.modal.modes import Modes, modes
 from comprope_system.presets.paper_installations import BUILDING, TOWER, building, with_sheave
 
@@ -126,8 +127,18 @@ def _ends(values: np.ndarray, width: int) -> tuple[float, float]:
     return float(values[:width].mean()), float(values[-width:].mean())
 
 
-def test_stick_is_between_the_frictions_grip_and_ill_condition() -> None:
-    assert 10.0 <= STICK <= 1e4
+def test_rope_and_sheave_turn_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Friction at rest holds: the lowest node moves along the groove as the rim does, and a softer grip changes no period."""
+    model = building(TOWER, {"rope.element_length": 0.1})
+    found = modes(model, 10.0, 10)
+    lowest = int(np.argmin(found.heights))
+    for mode in found.modes:
+        assert abs(mode.shape[-1, 1]) > 1e-3  # the sheave does turn
+        # The lowest node is up to half an element from the lowest point: cos(0.05 / 0.4) = 0.992.
+        assert mode.shape[lowest, 1] == pytest.approx(-mode.shape[-1, 1], rel=0.02)
+    monkeypatch.setattr(linearisation, "STICK", 0.1 * linearisation.STICK)
+    softer = modes(model, 10.0, 10)
+    assert [one.period for one in softer.modes] == pytest.approx([one.period for one in found.modes], rel=5e-5)
 
 
 def test_a_car_outside_the_shaft_is_refused() -> None:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from comprope.errors import InputError
+from comprope.rope.integration.state import State
 from comprope.rope.simulator.rope import CompensationRope
 from comprope_system.prescribed_trip import record, side_shape, trip_of
 from comprope_system.presets.paper_installations import BUILDING, TOWER, building, table, up, with_sheave
@@ -161,9 +162,29 @@ def test_verification_against_the_other_program() -> None:
 def test_verification_offset() -> None:
     row = offset._row(20.0, 120.0)
     assert row.worst < offset.ALLOWED
+    # EI / (2 r T) = 20 N m2 / (2 * 0.4 m * 596 N) = 41.9 mm at the axle; 2 m above it 6 % less, as the tension grows.
+    weight = 9.81 * (120.0 + 1.2 * np.pi * 0.4)
+    assert row.rigid[0] == pytest.approx(0.94 * 20.0 / (0.4 * weight), rel=0.03)
 
 
-def test_verification_invariants() -> None:
+def test_the_verdict_of_an_offset_is_its_largest_difference_from_the_closed_form() -> None:
+    form = np.array([0.04, 0.03, 0.02])
+    assert offset.Row(20.0, 120.0, form * [1.0, 0.99, 1.004], form, 2.0 * form).worst == pytest.approx(0.01)
+
+
+def test_a_trip_that_goes_on_from_a_saved_state_is_the_same_and_from_another_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
     assert not invariants.restart_differs()
+    restore = State.from_bytes
+
+    def restore_inexactly(state: State, data: bytes) -> None:
+        restore(state, data)
+        state.v[9] += 1e-9  # m/s
+
+    monkeypatch.setattr(State, "from_bytes", restore_inexactly)
+    assert invariants.restart_differs()
+
+
+def test_the_mirror_image_of_a_path_exchanges_the_ends_and_turns_sideways_motion_round() -> None:
+    """Rows: car down, car sideways, counterweight down, counterweight sideways; each begins and ends with three values."""
     path = np.arange(24.0)
-    assert np.array_equal(invariants.mirrored(invariants.mirrored(path)), path)
+    assert invariants.mirrored(path).tolist() == [*range(12, 18), *range(-18, -24, -1), *range(6), *range(-6, -12, -1)]
