@@ -2,6 +2,7 @@
 
 import json
 import sys
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -94,22 +95,94 @@ def test_every_cause_shows_when_it_is_large(name, plain):
     assert max(shift.values()) > 2.0  # times the noise; drag shows least in so low a tower, 2.7, all others more than 3
 
 
-@pytest.mark.parametrize("name", FILES)
-def test_every_fault_of_data_is_in_the_files(name, tmp_path, plain):
+# How the written rows of a fault differ: (its quantities, column hit, rows without noise, rows without fault, rows with fault).
+def _drifts(by, column, clean, sound, faulty):
+    expected = by["per_minute"] * LOW.channels[column].scale * clean["time"] / 60.0
+    expected[np.isnan(sound[column])] = np.nan
+    assert faulty[column] - sound[column] == pytest.approx(expected, abs=1e-9, nan_ok=True)
+
+
+def _has_the_other_sign(by, column, clean, sound, faulty):
+    assert faulty[column] - sound[column] == pytest.approx(-2.0 * clean[column], abs=1e-9, nan_ok=True)
+
+
+def _has_another_unit(by, column, clean, sound, faulty):
+    assert faulty[column] - sound[column] == pytest.approx((by["factor"] - 1.0) * clean[column], abs=1e-9, nan_ok=True)
+
+
+def _is_sampled_unevenly(by, column, clean, sound, faulty):
+    interval = clean["time"][1] - clean["time"][0]
+    moved = np.abs(faulty["time"] - clean["time"]) / interval
+    assert 0.9 * by["jitter"] < moved.max() <= by["jitter"] * (1.0 + 1e-9)  # of hundreds of uniform draws
+    for name, noise in LOW.noise.items():
+        apart = faulty[name] - np.interp(faulty["time"], clean["time"], clean[name])
+        assert np.nanstd(apart) == pytest.approx(noise, rel=0.15)  # over a thousand samples: read at the times written
+
+
+def _has_gaps(by, column, clean, sound, faulty):
+    interval, longest = clean["time"][1] - clean["time"][0], 0
+    for name in LOW.channels:
+        lost = np.isnan(faulty[name]) & ~np.isnan(sound[name])  # beside the times at which the sensor sees no rope
+        assert lost.sum() <= 2 * (by["seconds"] / interval + 1)
+        assert np.array_equal(faulty[name][~lost], sound[name][~lost], equal_nan=True)
+        longest = max(longest, lost.sum())
+    assert longest >= by["seconds"] / interval - 1
+    assert np.array_equal(faulty["car_position"], sound["car_position"])
+
+
+def _has_outliers(by, column, clean, sound, faulty):
+    for name, noise in LOW.noise.items():
+        far = np.abs(faulty[name] - sound[name])[~np.isnan(sound[name])]
+        count, size = by["share"] * len(far), by["times_noise"] * noise
+        assert abs(np.count_nonzero(far) - count) < 4.0 * np.sqrt(count)  # four standard deviations
+        assert 0.2 * size * (1.0 - 1e-9) <= far[far > 0.0].min() <= far.max() <= size * (1.0 + 1e-9)
+
+
+def _is_late(by, column, clean, sound, faulty):
+    for name in LOW.channels:
+        late = np.interp(clean["time"] - by["seconds"], clean["time"], clean[name])
+        assert faulty[name] - sound[name] == pytest.approx(late - clean[name], abs=1e-9, nan_ok=True)
+        assert np.nanmax(np.abs(late - clean[name])) > 0.0
+    assert np.array_equal(faulty["car_position"], sound["car_position"])
+
+
+def _is_stated_wrongly(by, column, clean, sound, faulty):
+    assert all(np.array_equal(faulty[name], sound[name], equal_nan=True) for name in sound)
+
+
+FAULTS = {
+    "sensor_drift": _drifts, "wrong_sign": _has_the_other_sign, "wrong_unit": _has_another_unit, "gaps": _has_gaps,
+    "uneven_sampling": _is_sampled_unevenly, "outliers": _has_outliers, "clock_offset": _is_late,
+    "wrong_noise": _is_stated_wrongly,
+}  # fmt: skip
+
+
+def test_every_fault_of_data_has_its_test():
+    assert set(FAULTS) == set(FILES)
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_the_written_rows_have_the_fault_that_was_drawn(name, plain):
     plan = small(name)
+    clean = plain(plan)
+    true = {channel.source: clean[column] / channel.scale for column, channel in LOW.channels.items()} | {"time": clean["time"]}
 
     def written(causes):
-        given = replace(plan, causes=causes)
-        table = plants.noisy(given, plants.measured(given, *of_plain(), causes), np.random.default_rng(0))
-        return np.column_stack(list(table.values())), plants.stated_noise(given)
+        rows = plants.measured(plan, true, clean["car_position"], causes)
+        return plants.noisy(replace(plan, causes=causes), rows, np.random.default_rng(0))
 
-    def of_plain():
-        clean = plain(plan)
-        true = {channel.source: clean[column] / channel.scale for column, channel in LOW.channels.items()}
-        return true | {"time": clean["time"]}, clean["car_position"]
+    FAULTS[name](plan.causes[name], plan.column, clean, written({"nothing": {}}), written(plan.causes))
 
-    (faulty, stated), (sound, truly) = written(plan.causes), written({"nothing": {}})
-    assert stated != truly or not np.array_equal(faulty, sound, equal_nan=True)
+
+def test_a_wrong_noise_is_stated_and_no_other(tmp_path):
+    plan = small("wrong_noise")
+    ratio = plan.causes["wrong_noise"]["stated_over_true"]
+    campaign_files.describe(tmp_path, LOW, 1, plants.stated_noise(plan))
+    channels = tomllib.loads((tmp_path / "campaign.toml").read_text())["channels"]
+    stated = {one["column"]: one["noise"] for one in channels}
+    assert stated == pytest.approx({column: ratio * noise for column, noise in LOW.noise.items()}, rel=1e-3)
+    assert ratio != pytest.approx(1.0, abs=0.1)
+    assert plants.stated_noise(small("gaps")) == 1.0
 
 
 def test_the_same_seed_gives_the_same_campaign():
