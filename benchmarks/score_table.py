@@ -1,4 +1,4 @@
-"""Scores of many diagnoses as tables: per cause and size, the totals that count, and how honest probabilities are."""
+"""Scores of many diagnoses as tables: by cause and size, totals, and calibration of the stated probabilities."""
 
 from collections import defaultdict
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ from score_added import table as intervals
 Json = dict[str, Any]
 VISIBLE = 3.0  # times the noise that a cause must shift some channel by
 TAKEN_OUT = "taken out"  # kind of a cause that the library has but was told to rule out
-SIZES = ("barely", "middle", "large")
+SIZES = ("small", "medium", "large")
 
 
 def table(rows: Sequence[Json]) -> str:
@@ -21,8 +21,8 @@ def table(rows: Sequence[Json]) -> str:
 
 
 COLUMNS = (
-    "kind", "hidden", "size", "times noise", "campaigns", "first", "or group", "wrongly called", "probability",
-    "held out: before, refitted, after", "left", "seconds",
+    "kind", "true cause", "size", "shift / noise", "campaigns", "ranked first", "or indistinguishable", "wrong verdict",
+    "probability", "validation: before, plant refitted, with effect", "reduced chi-square", "seconds",
 )  # fmt: skip
 
 
@@ -48,23 +48,23 @@ def cells(among: Sequence[Json]) -> list[str]:
 
 
 def totals(rows: Sequence[Json]) -> list[str]:
-    """What the diagnosis is judged by."""
+    """Totals by criterion."""
     rows = [row | {"alarm": row["verdict_kind"] != "adequate", "failed": row["status"] not in (0, 2)} for row in rows]
     seen = [row for row in rows if visible(row)]
     one, strange = of(seen, "known", "instrument"), of(seen, "outside")
     asked = [
-        ("first, one cause of the table that shifts a channel by over 3 times its noise", one, "first"),
-        ("or group", one, "group"),
-        ("first or group, two causes", of(rows, "pair"), "group"),
-        ("false alarm, nothing hidden", of(rows, "nothing"), "alarm"),
-        ("none of the known, recalled where a channel shifts by over 3 times its noise", strange, "first"),
-        ("called an effect of like nature instead", strange, "near_hit"),
-        ("the same with the cause taken out of the library", of(seen, TAKEN_OUT), "first"),
-        ("faults of data survived or told", of(rows, "data"), "group"),
+        ("one known cause that shifts a channel by more than 3 times its noise, ranked first", one, "first"),
+        ("the same, ranked first or indistinguishable from the first", one, "group"),
+        ("two causes at once, one of them ranked first", of(rows, "pair"), "group"),
+        ("no cause, verdict other than adequate", of(rows, "nothing"), "alarm"),
+        ("cause not among the known effects, over 3 times the noise, verdict unknown effect", strange, "first"),
+        ("the same, verdict a similar known effect", strange, "near_hit"),
+        ("true cause excluded (`--blind`), verdict unknown effect", of(seen, TAKEN_OUT), "first"),
+        ("fault of the data, tolerated or reported", of(rows, "data"), "group"),
         ("commands that failed", rows, "failed"),
     ]
     lines = [f"| {text} | {len(among)} | {share(among, key)} |" for text, among, key in asked]
-    return ["| judged by | campaigns | share |", "|---|---|---|", *lines]
+    return ["| criterion | campaigns | share |", "|---|---|---|", *lines]
 
 
 def of(rows: Sequence[Json], *kinds: str) -> list[Json]:
@@ -74,7 +74,7 @@ def of(rows: Sequence[Json], *kinds: str) -> list[Json]:
 
 def honesty(rows: Sequence[Json]) -> list[str]:
     """Stated probability of the verdict against how often it was right (first or group)."""
-    found = ["| stated probability | campaigns | mean stated | right |", "|---|---|---|---|"]
+    found = ["| stated probability | campaigns | mean stated | correct |", "|---|---|---|---|"]
     for low, high in ((0.0, 0.5), (0.5, 0.8), (0.8, 0.95), (0.95, 0.99), (0.99, 1.01)):
         among = [row for row in rows if row["probability"] is not None and low <= row["probability"] < high]
         if among:
