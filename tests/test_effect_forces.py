@@ -170,11 +170,11 @@ def test_the_contact_stores_and_loses_what_it_takes(changes: dict[str, float]) -
     apart.state.from_bytes(do.state.to_bytes())
     apart.rope.p[[K, C]] = 0.0
     contact, v, h, stored = forces(do) - forces(apart), do.state.v.copy(), 1e-8, []
-    lost = do.work.touch[NORMAL_LOSS] + do.work.touch[FRICTION_LOSS]
+    lost = do.work.contact[NORMAL_LOSS] + do.work.contact[FRICTION_LOSS]
     for side in (h, -h):
         do.state.q[:] += side * v
         forces(do)
-        stored.append(do.work.touch[ELASTIC])
+        stored.append(do.work.contact[ELASTIC])
         do.state.q[:] -= side * v
     # Energies of a joule, differenced over 10 ns of motion, carry 1e-8 W of rounding.
     assert contact @ v == pytest.approx(-(stored[0] - stored[1]) / (2.0 * h) - lost, rel=1e-6, abs=1e-5)

@@ -97,7 +97,7 @@ def forces(rope: CompensationRope, moved: np.ndarray) -> np.ndarray:
     """Forces on all unknowns of a rope moved from where it is."""
     m, p = rope.n + 1, np.asarray(rope.p)
     f, zeros = np.zeros(2 * m), np.zeros(40 * m)
-    touch, w = np.zeros(array_layout.TOUCH), np.zeros(array_layout.SECTIONS * m)
+    touch, w = np.zeros(array_layout.CONTACT_RESULTS), np.zeros(array_layout.SECTIONS * m)
     work = Workspace(w, f, zeros, zeros, touch, *(7 * [zeros]))
     motion = Motion(np.asarray(rope.state.q) + moved.ravel(), zeros, zeros)
     _interpreted()["forces"](rope.n, 0.0, p, motion, zeros, work, Weights(0.0, 0.0), False)

@@ -353,7 +353,7 @@ from comprope.rope.simulator.cosimulation import interface
 model = load(sys.argv[1])
 found = sizes({})
 before = kernels_header(interface(model), found)
-user_effects.read(Path(sys.argv[2]), allow_code=True)
+user_effects.load_file(Path(sys.argv[2]), allow_code=True)
 assert kernels_header(interface(model), found) == before
 """
 

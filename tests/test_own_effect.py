@@ -272,7 +272,7 @@ def test_what_only_the_user_knows_is_found_and_added(examples, tmp_path, monkeyp
 
 
 def own_names(file: Path) -> tuple[str, ...]:
-    user_effects.read(file, allow_code=True)
+    user_effects.load_file(file, allow_code=True)
     return user_effects.FILES[str(file)].effects
 
 

@@ -92,7 +92,7 @@ def lag(paths, run, grid):
 def twisted(model, run, channels, step):
     """A replay with a pulse of torque on the sheave."""
     pulse = {KEY + "sheave_torque": TORQUE, KEY + "time": WHEN, KEY + "width": WIDTH}
-    with user_effects.lent(str(PROBE), PROBE.read_text(encoding="utf-8")):
+    with user_effects.temporarily_registered(str(PROBE), PROBE.read_text(encoding="utf-8")):
         return replay.replay(with_changes(probed(model), pulse), run, channels, step)
 
 

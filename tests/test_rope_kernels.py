@@ -15,9 +15,9 @@ from comprope.quantities import quantities
 from comprope.rope.compiler.entry_points import compiled
 from comprope.rope.compiler.workspace import RopeWorkspace
 from comprope.rope.effects import REGISTRY
-from comprope.rope.effects.trial_state import Trial
+from comprope.rope.effects.trial_state import TrialState
 from comprope.rope.linalg import block_band, bordered_band
-from comprope.rope.mechanics import end_conditions, equations_of_motion, sensors
+from comprope.rope.mechanics import end_conditions, equations_of_motion, internal_tangent, sensors
 from comprope.rope.mechanics.contact_law import contact_radius, friction_law, normal_law
 from comprope.rope.mechanics.energy import LOSSES, SPENT
 from comprope.rope.mechanics.internal_forces import angle
@@ -118,11 +118,11 @@ def test_random_states_touch_slip_and_lift_off() -> None:
     do = random_state({})
     forces(do)
     m, q, p = do.rope.n + 1, do.state.q, do.rope.p
-    wrap = np.arange(int(do.work.touch[FIRST]), int(do.work.touch[LAST]) + 1)
+    wrap = np.arange(int(do.work.contact[FIRST]), int(do.work.contact[LAST]) + 1)
     middle = lambda at: q[at + wrap] + (q[at + wrap - 1] - 2.0 * q[at + wrap] + q[at + wrap + 1]) / 8.0  # noqa: E731
     depth = contact_radius(p) - np.hypot(middle(0) - q[m - 1], middle(m))
     assert 5 < np.count_nonzero(depth > 0.0) < wrap.size - 5
-    assert do.work.touch[FRICTION_LOSS] > 1.0
+    assert do.work.contact[FRICTION_LOSS] > 1.0
 
 
 def test_tangent_leaves_out_how_damping_turns_with_the_rope() -> None:
@@ -143,7 +143,7 @@ def test_elimination_from_both_ends_equals_a_dense_solve(n: int, first: int, las
     m, random = n + 1, np.random.default_rng(n)
     a, z = random.normal(size=(BAND, m)), np.zeros((CONTACT, m))
     a[[0, 2]] += 12.0  # safely positive definite, as elimination without pivots wants it
-    equations_of_motion.hold_ends(n, a.reshape(-1))
+    internal_tangent.fix_end_rows(n, a.reshape(-1))
     z[:, first : last + 1] = random.normal(size=(CONTACT, last - first + 1))
     for i, side in ((first, -2), (first, -1), (first + 1, -2), (last, 2), (last, 1), (last - 1, 2)):
         z[4 * (side + 2) : 4 * (side + 3), i] = 0.0  # what touches the groove lies within the zone
@@ -152,12 +152,12 @@ def test_elimination_from_both_ends_equals_a_dense_solve(n: int, first: int, las
     factored, work, size = a.reshape(-1).copy(), np.zeros(block_band.FACTOR * m), 2 * (last - first + 1)
     bordered, found = np.zeros((bordered_band.ROW + 2) * 2 * m + 4), right.copy()
     block_band.factor(n, factored, work, found[0], first, last)
-    bordered_band.fill(n, factored, contact, bordered, first, last)
-    bordered_band.factor_zone(size, bordered)
-    block_band.inwards(n, work, found[1], first, last)
+    bordered_band.assemble_bordered(n, factored, contact, bordered, first, last)
+    bordered_band.factor_bordered(size, bordered)
+    block_band.forward_substitute(n, work, found[1], first, last)
     for one in found:
-        bordered_band.solve_zone(n, bordered, one, first, last)
-        block_band.outwards(n, work, one, first, last)
+        bordered_band.solve_bordered(n, bordered, one, first, last)
+        block_band.back_substitute(n, work, one, first, last)
     # Rounding grows by the condition of the matrix, below 1e4 here.
     assert found == pytest.approx(np.linalg.solve(matrix, right.T).T, rel=1e-10, abs=1e-11)
 
@@ -424,13 +424,13 @@ def test_airflow_inward_mirrors_airflow_outward():
     """A still rope under a rising car: the drag of air that flows outward, and that of air that flows inward as fast."""
     pushed = []
     for ratio in (0.3, -0.3):
-        trial = Trial(REGISTRY["air_drag"], nominal=True)
+        trial = TrialState(REGISTRY["air_drag"], nominal=True)
         trial.p[slot("effects.shaft_airflow.crossflow_ratio")] = ratio
-        trial.at["v"][:] = 0.0
-        trial.at["v"][0] = -2.0
-        pushed.append(trial.forces()[trial.at["n"] + 1 :])
+        trial.arguments["v"][:] = 0.0
+        trial.arguments["v"][0] = -2.0
+        pushed.append(trial.forces()[trial.arguments["n"] + 1 :])
     outward, inward = pushed
-    side = np.sign(trial.at["q"][trial.at["n"] + 1 :])
+    side = np.sign(trial.arguments["q"][trial.arguments["n"] + 1 :])
     # Nodes near the ends hang straight, so all of the air's velocity is across the rope.
     assert outward[10] * side[10] > 0.0
     assert outward[-12] * side[-12] > 0.0

@@ -125,5 +125,5 @@ if __name__ == "__main__":
     from ..rope.effects import user_effects
 
     for one in sys.argv[3:]:
-        user_effects.read(Path(one), allow_code=True)
+        user_effects.load_file(Path(one), allow_code=True)
     Path(sys.argv[2]).write_text({"code": _code, "sizes": _sizes}[sys.argv[1]](), encoding="utf-8")

@@ -25,7 +25,7 @@ def load(path: str | Path, *, allow_code: bool = False) -> RopeModel:
     """
     table = read_toml(path)
     if files := _own_files(table):
-        table["own_effects"] = _admitted([Path(path).parent / file for file in files], str(path), allow_code)
+        table["own_effects"] = _run_files([Path(path).parent / file for file in files], str(path), allow_code)
     return validated(table, str(path))
 
 
@@ -70,7 +70,7 @@ def validated(table: Mapping[str, Any], source: str) -> RopeModel:
     """
     files = _own_files(table)
     if unknown := [file for file in files if file not in user_effects.FILES]:
-        files = [*(file for file in files if file in user_effects.FILES), *_admitted(map(Path, unknown), source)]
+        files = [*(file for file in files if file in user_effects.FILES), *_run_files(map(Path, unknown), source)]
         table = {**table, "own_effects": files}
     kind = model_type(files)
     try:
@@ -104,12 +104,12 @@ def _own_files(table: Mapping[str, Any]) -> list[str]:
     return list(files) if isinstance(files, list | tuple) and all(isinstance(one, str) for one in files) else []
 
 
-def _admitted(files: Iterable[Path], source: str, allow_code: bool = False) -> list[str]:
+def _run_files(files: Iterable[Path], source: str, allow_code: bool = False) -> list[str]:
     """Files of own effects, run where they have not been, by their absolute paths."""
     found, wrong = [str(file.resolve()) for file in files], []
     for file in found:
         try:
-            user_effects.read(Path(file), allow_code=allow_code)
+            user_effects.load_file(Path(file), allow_code=allow_code)
         except InputError as error:
             wrong.append(f"{source}: own_effects: {error}")
     if wrong:

@@ -26,6 +26,7 @@ from comprope.rope.mechanics import (
     effect_hooks,
     equations_of_motion,
     internal_forces,
+    internal_tangent,
     sheave_contact,
 )
 from comprope.rope.runtime import array_layout
@@ -81,21 +82,23 @@ def _masses(rope: CompensationRope) -> Floats:
 def _tangent(rope: CompensationRope, p: Floats, ck: float, cc: float) -> tuple[Floats, Floats, int, int]:
     """-ck df/dq - cc df/dv at rest: the rope's band, the contact's blocks, and the nodes these reach from and to."""
     n, m, kernels = rope.n, rope.n + 1, _interpreted()
-    sizes = (array_layout.SECTIONS * m, array_layout.BAND * m, array_layout.CONTACT * m + 4, 2 * m, 2 * m, array_layout.TOUCH, 1)
-    arrays: Any = ([0.0] * size for size in sizes)
-    w, A, Z, v, f, touch, none = arrays
+    sizes = (array_layout.SECTIONS * m, array_layout.BAND * m, array_layout.CONTACT * m + 4, 2 * m, 2 * m)
+    arrays: Any = ([0.0] * size for size in (*sizes, array_layout.CONTACT_RESULTS, 1))
+    w, A, Z, v, f, found, none = arrays
     q: Any = np.asarray(rope.state.q).tolist()
     values, motion = p.tolist(), Motion(q, v, none)
-    work = Workspace(w, f, none, none, touch, none, A, none, none, Z, none, none)
+    work = Workspace(w, f, none, none, found, none, A, none, none, Z, none, none)
     kernels["forces"](n, 0.0, values, motion, none, work, Weights(ck, cc), True)
     kernels["tangent_band"](n, 0.0, values, motion, work, 0.0, Weights(ck, cc))
-    return np.array(A), np.array(Z), int(touch[array_layout.FIRST]), int(touch[array_layout.LAST])
+    return np.array(A), np.array(Z), int(found[array_layout.FIRST]), int(found[array_layout.LAST])
 
 
 @cache
 def _interpreted() -> dict[str, Any]:
     """The kernels without effects as interpreted Python functions on lists: faster than compilation for two calls."""
-    modules = (effect_hooks, internal_forces, contact_law, contact_tangent, sheave_contact, equations_of_motion)
+    modules = (
+        effect_hooks, internal_forces, internal_tangent, contact_law, contact_tangent, sheave_contact, equations_of_motion,
+    )  # fmt: skip
     names = {key: value for module in modules for key, value in vars(module).items()}
     for key, value in names.items():
         function = getattr(value, "py_func", value)

@@ -12,7 +12,7 @@ import numpy as np
 
 from comprope.rope.integration import newmark
 from comprope.rope.linalg import block_band
-from comprope.rope.mechanics import internal_forces
+from comprope.rope.mechanics import internal_forces, internal_tangent
 from comprope.rope.runtime import array_layout
 from comprope.rope.runtime.kernel_arguments import Motion
 from comprope.rope.runtime.parameter_vector import vector
@@ -105,14 +105,14 @@ class FreeRope:
     def _solve(self, h: float) -> None:
         """Replace r by the correction of the acceleration."""
         n, ck = self.n, 0.25 * h * h
-        internal_forces.segment_blocks(n, self.p, self.w, ck, 0.5 * h)
-        internal_forces.bending_stiffness(n, self.p, self.w, ck, 0.5 * h)
-        internal_forces.assemble(n, self.p, self.w, self.A, 1.0, 0.5 * h)
+        internal_tangent.segment_blocks(n, self.p, self.w, ck, 0.5 * h)
+        internal_tangent.bending_stiffness(n, self.p, self.w, ck, 0.5 * h)
+        internal_tangent.assemble(n, self.p, self.w, self.A, 1.0, 0.5 * h)
         self._ends()
         first, last = n - 3, n - 1
         block_band.factor(n, self.A, self.L, self.r, first, last)
         self._solve_last_nodes(first)
-        block_band.outwards(n, self.L, self.r, first, last)
+        block_band.back_substitute(n, self.L, self.r, first, last)
 
     def _ends(self) -> None:
         """Hold the upper end; add to the tangent what the lower one has as a free end."""

@@ -36,6 +36,7 @@ from ..mechanics import (
     energy,
     equations_of_motion,
     internal_forces,
+    internal_tangent,
     sensors,
     sheave_contact,
 )
@@ -56,10 +57,10 @@ from .entry import Entry
 from .kernel_linking import linked, merged
 
 MODULES = (
-    kernel_arguments, array_layout, status, internal_forces, contact_law, contact_tangent, sheave_contact, end_conditions,
-    equations_of_motion, block_band, bordered_band, newmark, energy, time_stepping, static_equilibrium, mesh, initial_state,
-    input_interpolation, sensors, outputs, simd, multi_rhs, internal_force_derivatives, sheave_contact_derivatives, directions,
-    effect_derivatives, end_condition_derivatives, force_derivatives, newmark_derivatives, sensor_derivatives,
+    kernel_arguments, array_layout, status, internal_forces, internal_tangent, contact_law, contact_tangent, sheave_contact,
+    end_conditions, equations_of_motion, block_band, bordered_band, newmark, energy, time_stepping, static_equilibrium, mesh,
+    initial_state, input_interpolation, sensors, outputs, simd, multi_rhs, internal_force_derivatives, sheave_contact_derivatives,
+    directions, effect_derivatives, end_condition_derivatives, force_derivatives, newmark_derivatives, sensor_derivatives,
     static_equilibrium_derivatives,
 )  # fmt: skip
 # Functions that a model, or derivatives, put in the place of those that do nothing.

@@ -70,7 +70,7 @@ def _empty_workspace(m: int, effects: int, state: State) -> Workspace:
         f=np.zeros(2 * m),
         history=np.zeros(state.history.size),
         powers=np.zeros(state.powers.size),
-        touch=np.zeros(array_layout.TOUCH),
+        contact=np.zeros(array_layout.CONTACT_RESULTS),
         power=np.zeros(effects + 1),
         A=np.zeros(array_layout.BAND * m),
         L=np.zeros(block_band.FACTOR * m),

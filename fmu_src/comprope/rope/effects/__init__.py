@@ -40,7 +40,7 @@ class RopeModel(Base):
 def restored(table: dict[str, Any], sources: Mapping[str, str]) -> RopeModel:
     """The model of a table with user-defined effects by file and source; consent was given before pickling."""
     for path, text in sources.items():
-        user_effects.admit(path, text)
+        user_effects.run_source(path, text)
     return model_type(table["own_effects"]).model_validate(table)
 
 

@@ -18,7 +18,7 @@ from ..runtime.array_layout import BAND, BEND_RATE, CURVATURE, MOMENT, STIFF
 from ..runtime.kernel_arguments import Weights
 from ..runtime.parameter_vector import ELEMENT
 from .base import HOOK_TYPES, HOOKS, Effect
-from .trial_state import NODES, STEP, TIME, Trial
+from .trial_state import NODES, STEP, TIME, TrialState
 
 Floats = NDArray[np.float64]
 CLOSE = 1e-5  # relative, for what has to be exact: what differences leave
@@ -31,15 +31,15 @@ def require_consistent(effect: type[Effect]) -> None:
     """Raise `InputError`, with file and line, for the first thing that is wrong with an effect's kernels."""
     for hook, function in effect.hooks.items():
         try:
-            told = _uncompilable(function, hook) or _useless(effect, hook) or _CLAIMS.get(hook, _nothing)(effect)
+            problem = _compiler_problem(function, hook) or _result_problem(effect, hook) or _CHECKS.get(hook, _no_check)(effect)
         except Exception as error:  # a kernel may raise anything where it runs without a compiler
-            told = f"{type(error).__name__}: {error}"
-        if told:
+            problem = f"{type(error).__name__}: {error}"
+        if problem:
             plain = getattr(function, "py_func", function)
-            raise InputError(f"{effect.source}, line {plain.__code__.co_firstlineno}: {plain.__name__}: {told}")
+            raise InputError(f"{effect.source}, line {plain.__code__.co_firstlineno}: {plain.__name__}: {problem}")
 
 
-def _uncompilable(function: Any, hook: str) -> str | None:
+def _compiler_problem(function: Any, hook: str) -> str | None:
     """Why a kernel cannot be compiled for arrays without a length, as the joined kernels are."""
     if jit.PURE:
         return None
@@ -48,11 +48,11 @@ def _uncompilable(function: Any, hook: str) -> str | None:
     try:
         function.compile(tuple(types.get(HOOK_TYPES.get(name), jit.POINTER) for name in HOOKS[hook].split(", ")))
     except NumbaError as error:
-        return _compiler_words([line.strip() for line in str(error).splitlines()])
+        return _compiler_message([line.strip() for line in str(error).splitlines()])
     return None
 
 
-def _compiler_words(lines: Sequence[str]) -> str:
+def _compiler_message(lines: Sequence[str]) -> str:
     """The error message of numba, in one sentence."""
     place = next((line.partition(", line ")[2].split(":")[0] for line in lines if line.startswith("File ")), "")
     reason = next((line for line in lines if line and not line.startswith("Failed in")), "")
@@ -62,56 +62,56 @@ def _compiler_words(lines: Sequence[str]) -> str:
     return f"cannot be compiled{f' (line {place})' if place else ''}: {reason}"
 
 
-def _useless(effect: type[Effect], hook: str) -> str | None:
+def _result_problem(effect: type[Effect], hook: str) -> str | None:
     """Problems with the results of a hook at neutral and at nominal values."""
     for state in ("neutral", "nominal"):
-        trial = Trial(effect, nominal=state == "nominal")
-        before = {name: array.copy() for name, array in trial.at.items() if isinstance(array, np.ndarray)}
+        trial = TrialState(effect, nominal=state == "nominal")
+        before = {name: array.copy() for name, array in trial.arguments.items() if isinstance(array, np.ndarray)}
         given = trial.call(hook)
-        if not _as_agreed(hook, given):
+        if not _returns_as_declared(hook, given):
             return f"returns {'nothing' if given is None else repr(given)}; {_RETURNED.get(hook, 'nothing')} is accepted"
         returned = np.ravel(0.0 if given is None else given)
-        if not all(np.all(np.isfinite(np.ravel(array))) for array in (returned, *trial.at.values())):
+        if not all(np.all(np.isfinite(np.ravel(array))) for array in (returned, *trial.arguments.values())):
             return f"gives numbers that are not finite where every quantity is {state}"
-        changed = any(not np.array_equal(trial.at[name], array) for name, array in before.items())
+        changed = any(not np.array_equal(trial.arguments[name], array) for name, array in before.items())
         if state == "neutral" and hook != "begin" and (changed or np.any(returned)):
             return "changes something where every quantity is neutral"
     return None
 
 
-def _as_agreed(hook: str, given: Any) -> bool:
+def _returns_as_declared(hook: str, given: Any) -> bool:
     """Whether a hook returns as many numbers as it should."""
     numbers = given if isinstance(given, tuple) else () if given is None else (given,)
     wanted = {"groove": 4, "moments": 1, "forces": 1}.get(hook, 0)
     return len(numbers) == wanted and all(isinstance(one, int | float) for one in numbers)
 
 
-def _apart(given: Any, expected: Any, close: float = CLOSE) -> bool:
+def _differ(given: Any, expected: Any, close: float = CLOSE) -> bool:
     given, expected = np.asarray(given, float), np.asarray(expected, float)
     return bool(np.abs(given - expected).max() > close * np.abs(expected).max() + 1e-9)
 
 
-# -- what each kernel claims --------------------------------------------------------------------------
+# -- each kernel against the others --------------------------------------------------------------------------
 
 
-def _nothing(effect: type[Effect]) -> str | None:
+def _no_check(effect: type[Effect]) -> str | None:
     return None
 
 
 def _forces(effect: type[Effect]) -> str | None:
-    trial = Trial(effect, nominal=True)
-    return _power(trial.call("forces"), float(trial.at["f"] @ trial.at["v"]), "forces")
+    trial = TrialState(effect, nominal=True)
+    return _power(trial.call("forces"), float(trial.arguments["f"] @ trial.arguments["v"]), "forces")
 
 
 def _power(given: float, done: float, what: str) -> str | None:
-    return f"returns a power of {given:.6g} W, but its {what} do {done:.6g} W" if _apart(given, done) else None
+    return f"returns a power of {given:.6g} W, but its {what} do {done:.6g} W" if _differ(given, done) else None
 
 
 def _moments(effect: type[Effect]) -> str | None:
-    trial, m = Trial(effect, nominal=True), NODES + 1
+    trial, m = TrialState(effect, nominal=True), NODES + 1
 
     def inner(section: int) -> Floats:
-        own: Floats = trial.at["w"][section * m + 1 : section * m + NODES - 1]
+        own: Floats = trial.arguments["w"][section * m + 1 : section * m + NODES - 1]
         return own
 
     def moment() -> Floats:
@@ -125,10 +125,10 @@ def _moments(effect: type[Effect]) -> str | None:
     elastic = inner(MOMENT).copy()
     given = trial.call("moments")
     done = -float((inner(MOMENT) - elastic) @ inner(BEND_RATE)) * float(trial.p[ELEMENT])
-    if told := _power(given, done, "moments"):
-        return told
+    if problem := _power(given, done, "moments"):
+        return problem
     stiff = inner(STIFF).copy()
-    wrong = np.any(stiff) and _apart(stiff, trial.slope(bent, moment), ROUGH)
+    wrong = np.any(stiff) and _differ(stiff, trial.slope(bent, moment), ROUGH)
     return "what it adds to w[STIFF] is not the derivative of its moment by curvature" if wrong else None
 
 
@@ -136,12 +136,12 @@ def _tangents(effect: type[Effect]) -> str | None:
     if "forces" not in effect.hooks:
         return "without forces there is nothing to differentiate"
     for weights, array, word in ((Weights(1.0, 0.0), "q", "position"), (Weights(0.0, 1.0), "v", "velocity")):
-        trial = Trial(effect, nominal=True)
-        trial.at["weights"] = weights
+        trial = TrialState(effect, nominal=True)
+        trial.arguments["weights"] = weights
         trial.call("tangents")
-        stated, held = _dense(trial.at["A"]), _dense(np.ones_like(trial.at["A"]))
-        found = -held * np.array([trial.slope(_mover(trial.at[array], k), trial.forces) for k in range(2 * NODES + 2)]).T
-        if np.any(stated) and _apart(stated, found, ROUGH):
+        stated, held = _dense(trial.arguments["A"]), _dense(np.ones_like(trial.arguments["A"]))
+        found = -held * np.array([trial.slope(_mover(trial.arguments[array], k), trial.forces) for k in range(2 * NODES + 2)]).T
+        if np.any(stated) and _differ(stated, found, ROUGH):
             worst = np.unravel_index(np.abs(stated - found).argmax(), found.shape)
             return f"by {word} it adds {stated[worst]:.4g} to A where minus the derivative of the force is {found[worst]:.4g}"
     return None
@@ -169,27 +169,27 @@ def _dense(band: Floats) -> Floats:
 
 def _ends(effect: type[Effect]) -> str | None:
     def placed(step: float) -> dict[str, Floats]:
-        at = Trial(effect, nominal=True).at
+        at = TrialState(effect, nominal=True).arguments
         at |= {"t": TIME + step, "q": at["q"] + at["v"] * step + 0.5 * at["a"] * step**2, "v": at["v"] + at["a"] * step}
         effect.hooks["ends"](*(at[name] for name in HOOKS["ends"].split(", ")))
         return at
 
     now, later, earlier = placed(0.0), placed(STEP), placed(-STEP)
     for word, of, what in (("velocity", "position", "qv"), ("acceleration", "velocity", "va")):
-        if _apart(now[what[1]], (later[what[0]] - earlier[what[0]]) / (2.0 * STEP)):
+        if _differ(now[what[1]], (later[what[0]] - earlier[what[0]]) / (2.0 * STEP)):
             return f"the {word} that it gives an end is not the derivative of the {of} by time"
     return None
 
 
 def _groove(effect: type[Effect]) -> str | None:
-    trial = Trial(effect, nominal=True)
+    trial = TrialState(effect, nominal=True)
 
     def turn(step: float) -> None:
-        trial.at["angle"] += step
+        trial.arguments["angle"] += step
 
     given = trial.call("groove")
-    wrong = _apart(given[2:], trial.slope(turn, lambda: np.array(trial.call("groove")))[:2])
+    wrong = _differ(given[2:], trial.slope(turn, lambda: np.array(trial.call("groove")))[:2])
     return "the last two numbers that it returns are not the derivatives of the first two by the angle" if wrong else None
 
 
-_CLAIMS = {"forces": _forces, "moments": _moments, "tangents": _tangents, "ends": _ends, "groove": _groove}
+_CHECKS = {"forces": _forces, "moments": _moments, "tangents": _tangents, "ends": _ends, "groove": _groove}

@@ -11,8 +11,8 @@ halved, up to `MOST_HALVINGS` times; what is accepted has always converged.
 
 from math import isfinite
 
-from ..linalg.block_band import factor, inwards, outwards
-from ..linalg.bordered_band import factor_zone, fill, solve_zone
+from ..linalg.block_band import back_substitute, factor, forward_substitute
+from ..linalg.bordered_band import assemble_bordered, factor_bordered, solve_bordered
 from ..mechanics.end_conditions import place_ends
 from ..mechanics.equations_of_motion import forces, node_mass, tangent_band
 from ..mechanics.sheave_contact import find_contact_range
@@ -50,7 +50,7 @@ def predict(n, h, state, motion):
 
 
 @kernel
-def advect_acceleration(n, p, h, state, motion, touch):
+def advect_acceleration(n, p, h, state, motion, contact):
     """Start of the iteration for the nodes near the sheave, which the rope carries along its own shape.
 
     That shape hardly changes in a step, but a node runs along it by a good part of an element, and its
@@ -60,8 +60,8 @@ def advect_acceleration(n, p, h, state, motion, touch):
     q0, v0, a0, q, v, a = state.q, state.v, state.a, motion.q, motion.v, motion.a
     m, alpha, per_l = n + 1, p[ALPHA], 1.0 / p[ELEMENT]
     beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
-    find_contact_range(n, p, q0, q0[n], 0.0, touch)
-    first, last = max(int(touch[FIRST]) - BESIDE_GROOVE, 1), min(int(touch[LAST]) + BESIDE_GROOVE, n - 2)
+    find_contact_range(n, p, q0, q0[n], 0.0, contact)
+    first, last = max(int(contact[FIRST]) - BESIDE_GROOVE, 1), min(int(contact[LAST]) + BESIDE_GROOVE, n - 2)
     for i in range(first, last + 1):
         along = 0.5 * ((q0[i + 1] - q0[i - 1]) * v0[i] + (q0[m + i + 1] - q0[m + i - 1]) * v0[m + i]) * per_l
         place = min(max(i + along * h * per_l, 1.0), n - 2.0)
@@ -113,22 +113,22 @@ def factor_tangent(n, t, p, h, motion, work):
 
     The sheave's column of the factor keeps which nodes the zone begins and ends with.
     """
-    A, L, B, touch = work.A, work.L, work.B, work.touch
-    first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
+    A, L, B, contact = work.A, work.L, work.B, work.contact
+    first, last = int(contact[FIRST]) - 1, int(contact[LAST]) + 1
     tangent_band(n, t, p, motion, work, 1.0, newmark_weights(p, h))
     factor(n, A, L, work.r, first, last)
-    fill(n, A, work.Z, B, first, last)
-    factor_zone(2 * (last - first + 1), B)
+    assemble_bordered(n, A, work.Z, B, first, last)
+    factor_bordered(2 * (last - first + 1), B)
     L[n], L[2 * n + 1] = first, last
 
 
 @kernel
 def newmark_step(n, p, path, step, state, motion, work):
     """Try one time step from `state`, and set `motion` to what it arrives at; True when Newton's iteration has converged."""
-    f, r, L, touch, counters = work.f, work.r, work.L, work.touch, state.counters
+    f, r, L, contact, counters = work.f, work.r, work.L, work.contact, state.counters
     t, h, weights = step.t, step.h, newmark_weights(p, step.h)
     predict(n, h, state, motion)
-    advect_acceleration(n, p, h, state, motion, touch)
+    advect_acceleration(n, p, h, state, motion, contact)
     place_ends(n, t, p, path, step.dt, step.s, motion)
     before, fresh, first, last = 1e300, True, 0, 0
     for _ in range(ITERATIONS):
@@ -136,12 +136,12 @@ def newmark_step(n, p, path, step, state, motion, work):
         residual(n, p, motion.a, f, state.f, r)
         if fresh:
             factor_tangent(n, t, p, h, motion, work)
-            first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
+            first, last = int(contact[FIRST]) - 1, int(contact[LAST]) + 1
             counters[FACTORED] += 1
         else:
-            inwards(n, L, r, first, last)
-        solve_zone(n, work.B, r, first, last)
-        outwards(n, L, r, first, last)
+            forward_substitute(n, L, r, first, last)
+        solve_bordered(n, work.B, r, first, last)
+        back_substitute(n, L, r, first, last)
         change = correct(n, p, h, r, motion, counters)
         counters[NEWTON] += 1
         if not isfinite(change):

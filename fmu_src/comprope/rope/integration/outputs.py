@@ -61,7 +61,7 @@ def evaluate_outputs(rope: RopeData, state: State, work: Workspace, outputs: Out
     forces_of_state(rope, state, work, state.time[0], Weights(0.0, 0.0), False)
     hold_forces(n, p, state.a, work.f, P)
     b = 2 * sensors
-    y[b], y[b + 1], y[b + 2] = -work.touch[FORCE_X], p[PIT] - q[n], -v[n]
+    y[b], y[b + 1], y[b + 2] = -work.contact[FORCE_X], p[PIT] - q[n], -v[n]
     y[b + 3], y[b + 4] = q[2 * n + 1], v[2 * n + 1]
     y[b + 5], y[b + 6] = -P[0], -P[2]
     for k in range(2):

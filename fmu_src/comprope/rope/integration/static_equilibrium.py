@@ -7,8 +7,8 @@ sheave. The sheave's angle stays where it is: without friction nothing turns it.
 
 from math import isfinite
 
-from ..linalg.block_band import factor, outwards
-from ..linalg.bordered_band import factor_zone, fill, solve_zone
+from ..linalg.block_band import back_substitute, factor
+from ..linalg.bordered_band import assemble_bordered, factor_bordered, solve_bordered
 from ..mechanics.equations_of_motion import forces, tangent_band
 from ..runtime.array_layout import COLUMNS, CONTACT, DYY, FIRST, LAST, ROWS
 from ..runtime.jit import kernel
@@ -24,18 +24,18 @@ LARGEST_MOVE = 0.25  # of an element: the longest move of one iteration
 def solve_equilibrium(n, p, motion, h0, work):
     """Move q to equilibrium, v staying zero; returns the number of iterations, or -1 where none is found."""
     m, mass, q, f, r, element = n + 1, 1.0, motion.q, work.f, work.r, p[ELEMENT]
-    A, L, B, Z, touch, angle = work.A, work.L, work.B, work.Z, work.touch, q[n + 1 + n]
+    A, L, B, Z, contact, angle = work.A, work.L, work.B, work.Z, work.contact, q[n + 1 + n]
     for iteration in range(MOST_ITERATIONS):
         forces(n, 0.0, p, motion, h0, work, Weights(1.0, 0.0), True)
-        first, last = int(touch[FIRST]) - 1, int(touch[LAST]) + 1
+        first, last = int(contact[FIRST]) - 1, int(contact[LAST]) + 1
         tangent_band(n, 0.0, p, motion, work, mass, Weights(1.0, 0.0))
         equilibrium_residual(n, f, r)
         lock_angle(n, A, Z)
         factor(n, A, L, r, first, last)
-        fill(n, A, Z, B, first, last)
-        factor_zone(2 * (last - first + 1), B)
-        solve_zone(n, B, r, first, last)
-        outwards(n, L, r, first, last)
+        assemble_bordered(n, A, Z, B, first, last)
+        factor_bordered(2 * (last - first + 1), B)
+        solve_bordered(n, B, r, first, last)
+        back_substitute(n, L, r, first, last)
         largest = 0.0
         for i in range(2 * m):
             if not abs(r[i]) <= largest:

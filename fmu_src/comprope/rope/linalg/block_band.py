@@ -2,9 +2,9 @@
 
 Away from the sheave the tangent is symmetric, so nodes are eliminated in 2 x 2 blocks from the car's
 end (left) and from the counterweight's end (right) at once; the two recurrences do not depend on
-each other and overlap in the processor. What is left are the nodes near the sheave, where friction
-makes the tangent unsymmetric and the sheave's height and angle border it: `bordered_band` solves those, and
-the back substitution runs outwards again.
+each other and overlap in the processor. What is left is the zone of nodes near the sheave, where friction
+makes the tangent unsymmetric and the sheave's height and angle border it: `bordered_band` solves it, and
+the back substitution runs from there to both ends.
 
 Section layout of the factor L: inverse of the pivot block (3), then the blocks U1 = D^-1 E towards
 the next node and U2 = D^-1 G towards the one after (4 each), "next" being nearer to the sheave.
@@ -66,7 +66,8 @@ def eliminate(m, A, L, r, i, back):
 def factor(n, A, L, r, first, last):
     """Eliminate nodes 0 .. first-1 and n-1 .. last+1; A keeps the Schur complement of first .. last.
 
-    The right-hand side r is carried along, as `inwards` would do it."""
+    The right-hand side r is carried along, as `forward_substitute` would do it.
+    """
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(both):
@@ -95,7 +96,7 @@ def backward(m, L, r, i, j, k):
 
 
 @kernel
-def inwards(n, L, r, first, last):
+def forward_substitute(n, L, r, first, last):
     """Forward substitution from both ends to the zone first .. last."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
@@ -109,7 +110,7 @@ def inwards(n, L, r, first, last):
 
 
 @kernel
-def outwards(n, L, r, first, last):
+def back_substitute(n, L, r, first, last):
     """Back substitution from the zone first .. last, already solved, to both ends."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)

@@ -14,7 +14,7 @@ ROW = 2 * WIDTH + 3
 
 
 @kernel
-def fill(n, A, Z, B, first, last):
+def assemble_bordered(n, A, Z, B, first, last):
     """Copy the Schur complement A, the contact tangent Z and the sheave's block into B."""
     m, size = n + 1, 2 * (last - first + 1)
     for k in range(ROW * size):
@@ -50,7 +50,7 @@ def copy_block(m, A, Z, B, row, i, side):
 
 
 @kernel
-def factor_zone(size, B):
+def factor_bordered(size, B):
     """Factor the bordered band of `size` rows in place; multipliers replace what they eliminate."""
     corner = (ROW + 2) * size
     for k in range(size):
@@ -74,7 +74,7 @@ def factor_zone(size, B):
 
 
 @kernel
-def solve_zone(n, B, r, first, last):
+def solve_bordered(n, B, r, first, last):
     """Solve the factored zone for the right-hand side r, in place; the sheave's part is column n."""
     m, size = n + 1, 2 * (last - first + 1)
     corner = (ROW + 2) * size

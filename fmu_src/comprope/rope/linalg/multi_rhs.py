@@ -41,8 +41,8 @@ def backward_lanes(m, L, R, begin, end, i, j, k):
 
 
 @kernel
-def inwards_lanes(n, L, R, begin, end, first, last):
-    """What `block_band.inwards` does, for every lane."""
+def forward_substitute_lanes(n, L, R, begin, end, first, last):
+    """What `block_band.forward_substitute` does, for every lane."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(both):
@@ -55,8 +55,8 @@ def inwards_lanes(n, L, R, begin, end, first, last):
 
 
 @kernel
-def outwards_lanes(n, L, R, begin, end, first, last):
-    """What `block_band.outwards` does, for every lane."""
+def back_substitute_lanes(n, L, R, begin, end, first, last):
+    """What `block_band.back_substitute` does, for every lane."""
     m, right = n + 1, n - 1 - last
     both = min(first, right)
     for e in range(right - 1, both - 1, -1):
@@ -69,8 +69,8 @@ def outwards_lanes(n, L, R, begin, end, first, last):
 
 
 @kernel
-def solve_zone_lanes(n, B, R, base, first, last):
-    """What `bordered_band.solve_zone` does, for every lane of a block; rows of the zone follow each other in R."""
+def solve_bordered_lanes(n, B, R, base, first, last):
+    """What `bordered_band.solve_bordered` does, for every lane of a block; rows of the zone follow each other in R."""
     size, row, sheave = 2 * (last - first + 1), base + 2 * LANES * first, base + 2 * LANES * n
     height, turn = load(R, sheave), load(R, sheave + LANES)
     for k in range(size):
@@ -96,7 +96,7 @@ def solve_zone_lanes(n, B, R, base, first, last):
 @kernel
 def solve_lanes(n, L, B, R, begin, end, first, last):
     """Solve the factored tangent for the right-hand sides of blocks `begin` .. `end` - 1, in place."""
-    inwards_lanes(n, L, R, begin, end, first, last)
+    forward_substitute_lanes(n, L, R, begin, end, first, last)
     for block in range(begin, end):
-        solve_zone_lanes(n, B, R, 2 * LANES * (n + 1) * block, first, last)
-    outwards_lanes(n, L, R, begin, end, first, last)
+        solve_bordered_lanes(n, B, R, 2 * LANES * (n + 1) * block, first, last)
+    back_substitute_lanes(n, L, R, begin, end, first, last)

@@ -20,7 +20,7 @@ END_FORCES = 4  # at the start of the array of powers, before losses and effects
 
 
 @kernel
-def stored_energies(n, p, q, v, w, touch, E):
+def stored_energies(n, p, q, v, w, contact, E):
     """Set the stored energies in E [J]: kinetic, gravity, tension, bending, contact, sheave."""
     m, l, kinetic, low, strain, bent = n + 1, p[ELEMENT], 0.0, 0.0, 0.0, 0.0
     for i in range(n):
@@ -36,12 +36,12 @@ def stored_energies(n, p, q, v, w, touch, E):
     E[GRAVITY] = -p[RHO] * l * p[G] * low - p[M] * p[G] * q[n]
     E[STRAIN] = 0.5 * p[EA] / l * strain
     E[BENT] = 0.5 * p[EI] * l * bent
-    E[CONTACT_ENERGY] = touch[ELASTIC]
+    E[CONTACT_ENERGY] = contact[ELASTIC]
     E[SHEAVE] = 0.5 * (p[M] * v[n] * v[n] + p[J] * v[m + n] * v[m + n])
 
 
 @kernel
-def powers(n, p, v, w, touch, power, effects, P):
+def powers(n, p, v, w, contact, power, effects, P):
     """Set P: forces that hold the ends come first, then the losses and effects' powers [W]."""
     m, l, axial, bending, drag = n + 1, p[ELEMENT], 0.0, 0.0, 0.0
     for e in range(n - 1):
@@ -53,8 +53,8 @@ def powers(n, p, v, w, touch, power, effects, P):
     P[END_FORCES] = p[CA] / l * axial
     P[END_FORCES + 1] = p[CB] * l * bending
     P[END_FORCES + 2] = p[CE] * l * drag
-    P[END_FORCES + 3] = touch[NORMAL_LOSS]
-    P[END_FORCES + 4] = touch[FRICTION_LOSS]
+    P[END_FORCES + 3] = contact[NORMAL_LOSS]
+    P[END_FORCES + 4] = contact[FRICTION_LOSS]
     for k in range(effects):
         P[END_FORCES + 5 + k] = power[k]
 
@@ -73,8 +73,8 @@ def hold_forces(n, p, a, f, P):
 def begin_balance(rope, state, work):
     """Set stored energies and powers of a state at the start, where the forces are work.f; state.start becomes what is stored."""
     n, p, E = rope.n, rope.p, state.energy
-    stored_energies(n, p, state.q, state.v, work.w, work.touch, E)
-    powers(n, p, state.v, work.w, work.touch, work.power, rope.effects, state.powers)
+    stored_energies(n, p, state.q, state.v, work.w, work.contact, E)
+    powers(n, p, state.v, work.w, work.contact, work.power, rope.effects, state.powers)
     hold_forces(n, p, state.a, work.f, state.powers)
     state.start[0] = E[KINETIC] + E[GRAVITY] + E[STRAIN] + E[BENT] + E[CONTACT_ENERGY] + E[SHEAVE]
 
@@ -84,8 +84,8 @@ def update_balance(rope, h, state, motion, work):
     """Bring the energy balance up to date with a step of length h that goes from `state` to `motion`."""
     n, p, effects, P0, P, E = rope.n, rope.p, rope.effects, state.powers, work.powers, state.energy
     m, q0, q = n + 1, state.q, motion.q
-    stored_energies(n, p, q, motion.v, work.w, work.touch, E)
-    powers(n, p, motion.v, work.w, work.touch, work.power, effects, P)
+    stored_energies(n, p, q, motion.v, work.w, work.contact, E)
+    powers(n, p, motion.v, work.w, work.contact, work.power, effects, P)
     hold_forces(n, p, motion.a, work.f, P)
     moved = 0.5 * (P0[0] + P[0]) * (q[0] - q0[0]) + 0.5 * (P0[1] + P[1]) * (q[m] - q0[m])
     moved += 0.5 * (P0[2] + P[2]) * (q[n - 1] - q0[n - 1])

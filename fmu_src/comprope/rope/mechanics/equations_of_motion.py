@@ -8,7 +8,8 @@ from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Motion, RopeData, State, Weights, Workspace
 from ..runtime.parameter_vector import ELEMENT, RHO, G, J, M
 from .effect_hooks import all_forces, all_moments, all_tangents
-from .internal_forces import assemble, bend, bending_stiffness, hold_ends, segment_blocks, stretch, sum_forces
+from .internal_forces import bend, stretch, sum_forces
+from .internal_tangent import assemble, bending_stiffness, fix_end_rows, segment_blocks
 from .sheave_contact import add_contact
 
 
@@ -47,7 +48,7 @@ def tangent_band(n, t, p, motion, work, mass, weights):
     A[DXY * m + n] = 0.0
     A[DYY * m + n] = mass * p[J]
     all_tangents(n, t, p, motion.q, motion.v, w, A, weights)
-    hold_ends(n, A)
+    fix_end_rows(n, A)
 
 
 @kernel

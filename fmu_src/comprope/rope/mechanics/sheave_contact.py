@@ -12,7 +12,7 @@ rope leaves the sheave where a continuous one does, both to fourth order in l / 
 
 from math import sqrt
 
-from ..runtime.array_layout import ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, LAST, NORMAL_LOSS, TOUCH
+from ..runtime.array_layout import CONTACT_RESULTS, ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, LAST, NORMAL_LOSS
 from ..runtime.jit import kernel
 from ..runtime.parameter_vector import ELEMENT, K, R
 from .contact_law import POINTS, contact_radius, friction_law, normal_law, shape
@@ -21,8 +21,8 @@ from .effect_hooks import all_groove
 
 
 @kernel
-def find_contact_range(n, p, q, ox, oy, touch):
-    """Find the nodes near the groove: the piece of a node outside touch[FIRST..LAST] cannot touch it."""
+def find_contact_range(n, p, q, ox, oy, contact):
+    """Find the nodes near the groove: the piece of a node outside contact[FIRST..LAST] cannot touch it."""
     m, limit = n + 1, (p[R] + p[ELEMENT]) ** 2
     first, last = n, -1
     for i in range(2, n - 2):
@@ -33,17 +33,17 @@ def find_contact_range(n, p, q, ox, oy, touch):
             last = i
     if last < 0:
         first = last = n // 2
-    touch[FIRST] = max(first - 1, 2)
-    touch[LAST] = min(last + 1, n - 3)
+    contact[FIRST] = max(first - 1, 2)
+    contact[LAST] = min(last + 1, n - 3)
 
 
 @kernel
 def add_contact(n, p, motion, work, weights, tangent):
     """Add contact and friction to the forces on nodes and sheave; with `tangent` set work.Z to their tangent."""
-    m, q, touch = n + 1, motion.q, work.touch
+    m, q, contact = n + 1, motion.q, work.contact
     groove = all_groove(p, q[m + n])
-    find_contact_range(n, p, q, q[n] + groove[0], groove[1], touch)
-    first, last = int(touch[FIRST]), int(touch[LAST])
+    find_contact_range(n, p, q, q[n] + groove[0], groove[1], contact)
+    first, last = int(contact[FIRST]), int(contact[LAST])
     if tangent:
         clear_contact_tangent(n, work.Z, first, last)
     add_pieces(n, p, motion, groove, work, weights, tangent)
@@ -51,11 +51,11 @@ def add_contact(n, p, motion, work, weights, tangent):
 
 @kernel
 def add_pieces(n, p, motion, groove, work, weights, tangent):
-    """Add the contact of all pieces among the nodes near the groove that work.touch names."""
-    m, q, touch = n + 1, motion.q, work.touch
-    for k in range(TOUCH - 2):
-        touch[k] = 0.0
-    for i in range(int(touch[FIRST]), int(touch[LAST]) + 1):
+    """Add the contact of all pieces among the nodes near the groove that work.contact names."""
+    m, q, contact = n + 1, motion.q, work.contact
+    for k in range(CONTACT_RESULTS - 2):
+        contact[k] = 0.0
+    for i in range(int(contact[FIRST]), int(contact[LAST]) + 1):
         if near(m, p, q, i, q[n] + groove[0], groove[1]):
             add_piece(n, p, motion, i, groove, work, weights, tangent)
 
@@ -75,7 +75,7 @@ def add_piece(n, p, motion, i, groove, work, weights, tangent):
     dx, dy and vx, vy are position and velocity relative to the groove's centre; gx, gy is how that
     centre moves with the sheave's angle.
     """
-    q, v, touch = motion.q, motion.v, work.touch
+    q, v, contact = motion.q, motion.v, work.contact
     ex, ey, gx, gy = groove
     ck, cc = weights
     m, radius, spin, length = n + 1, contact_radius(p), v[n + n + 1], p[ELEMENT] / POINTS
@@ -96,9 +96,9 @@ def add_piece(n, p, motion, i, groove, work, weights, tangent):
             ax, ay, bx, by, cx, cy = ax + na * hx, ay + na * hy, bx + nb * hx, by + nb * hy, cx + nc * hx, cy + nc * hy
             lx, ly = gx + radius * ny, gy - radius * nx
             turn += hx * lx + hy * ly
-            touch[ELASTIC] += 0.5 * length * p[K] * depth * depth
-            touch[NORMAL_LOSS] += length * (P - p[K] * depth) * rate
-            touch[FRICTION_LOSS] += length * P * grip * slip
+            contact[ELASTIC] += 0.5 * length * p[K] * depth * depth
+            contact[NORMAL_LOSS] += length * (P - p[K] * depth) * rate
+            contact[FRICTION_LOSS] += length * P * grip * slip
             if tangent:
                 axx, axy, ayx, ayy = point_tangent(weights, (nx, ny), (vx, vy), rho, (P, P_depth, P_rate), (grip, grip_slip))
                 a = length * axx, length * axy, length * ayx, length * ayy
@@ -121,4 +121,4 @@ def add_to_nodes(n, work, i, a, b, c, turn):
     f[m + i + 1] += c[1]
     f[n] -= a[0] + b[0] + c[0]
     f[m + n] -= turn
-    work.touch[FORCE_X] -= a[0] + b[0] + c[0]
+    work.contact[FORCE_X] -= a[0] + b[0] + c[0]

@@ -26,4 +26,4 @@ CONTACT = 28
 
 # Small results of the contact kernel.
 FORCE_X, ELASTIC, NORMAL_LOSS, FRICTION_LOSS, FIRST, LAST = range(6)
-TOUCH = 6
+CONTACT_RESULTS = 6

@@ -79,7 +79,7 @@ class Workspace(NamedTuple):
     f: Array  # (2 m) forces of the last evaluation
     history: Array  # history of effects after that evaluation
     powers: Array  # as State.powers
-    touch: Array  # contact
+    contact: Array  # contact
     power: Array  # power of each effect [W]
     A: Array  # block band of the tangent
     L: Array  # factor of A

@@ -32,7 +32,7 @@ def block_derivative(rope, state, work, directions, block, combination):
         shift_parameters(directions, k, e)
         turned = dq[b] + h * (dv[b] + 0.5 * h * da[b])
         centre_derivative(e, p, beside.p1, state.q[m + n], turned, k % LANES, beside.centre)
-    contact_derivative(n, p, state, work.touch, directions, block, combination)
+    contact_derivative(n, p, state, work.contact, directions, block, combination)
 
 
 @kernel

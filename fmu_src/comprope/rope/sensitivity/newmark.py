@@ -13,7 +13,7 @@ What the ends do with dp is read off their paths by differences. How directions 
 """
 
 from ..integration.newmark import factor_tangent, newmark_weights
-from ..linalg.bordered_band import factor_zone, fill
+from ..linalg.bordered_band import assemble_bordered, factor_bordered
 from ..linalg.multi_rhs import solve_lanes
 from ..mechanics.contact_tangent import clear_contact_tangent
 from ..mechanics.effect_hooks import all_groove
@@ -33,22 +33,22 @@ GROUP = 3  # blocks that are carried on at once: enough to fill each other's wai
 
 
 @kernel
-def factor_contact_zone(n, p, h, motion, work):
+def factor_contact_tangent(n, p, h, motion, work):
     """Factor the contact's tangent in the state reached anew in the factor's zone; work.f is free for use.
 
     The contact changes most between the iterate that was factored and the state reached; the rope's share in A
     stays as it was.
     """
-    L, touch, f, q, m = work.L, work.touch, work.f, motion.q, n + 1
+    L, contact, f, q, m = work.L, work.contact, work.f, motion.q, n + 1
     first, last = int(L[n]), int(L[2 * n + 1])
-    touch[FIRST], touch[LAST] = first + 1.0, last - 1.0
+    contact[FIRST], contact[LAST] = first + 1.0, last - 1.0
     clear_contact_tangent(n, work.Z, first + 1, last - 1)
     for i in range(first, last + 1):
         f[i], f[m + i] = 0.0, 0.0
     f[n], f[m + n] = 0.0, 0.0
     add_pieces(n, p, motion, all_groove(p, q[m + n]), work, newmark_weights(p, h), True)
-    fill(n, work.A, work.Z, work.B, first, last)
-    factor_zone(2 * (last - first + 1), work.B)
+    assemble_bordered(n, work.A, work.Z, work.B, first, last)
+    factor_bordered(2 * (last - first + 1), work.B)
 
 
 @kernel
@@ -62,7 +62,7 @@ def prepare_directions(rope, step, state, work, directions):
     else:
         if changed:
             forces(n, t, p, motion, before, work, Weights(0.0, 0.0), False)
-        factor_contact_zone(n, p, h, motion, work)
+        factor_contact_tangent(n, p, h, motion, work)
     elongations(n, p, state.v, work.w, directions.work.elongations)
     if changed:
         present_effect_forces(rope, t, state, work, directions)

@@ -84,7 +84,7 @@ def pressed(p, radius, dx, dy, vx, vy):
 
 
 @kernel
-def contact_derivative(n, p, state, touch, directions, block, combination):
+def contact_derivative(n, p, state, contact, directions, block, combination):
     """Add to a block of D `new` times how contact and friction answer, predicted h ahead; set its part of `lift`.
 
     work.centre has the changes of the groove's centre, see `centre_derivative`; `lift` is the vertical force on the sheave.
@@ -104,7 +104,7 @@ def contact_derivative(n, p, state, touch, directions, block, combination):
     dx0, dy0 = dx0 + load(centre, 0), load(centre, LANES)
     dvx0, dvy0 = dvx0 + gx * dspin + spin * dgx, gy * dspin + spin * dgy
     total, torque, change = 0.0 * dx0, 0.0 * dx0, (dradius, grown, dspin, dgx, dgy)
-    for i in range(int(touch[FIRST]), int(touch[LAST]) + 1):
+    for i in range(int(contact[FIRST]), int(contact[LAST]) + 1):
         if near(m, p, q, i, fx, fy):
             for g in range(POINTS):
                 na, nb, nc = shape(g)

@@ -91,7 +91,7 @@ def splines_of(run: Run) -> Splines:
 
 
 def probed(model: RopeModel) -> RopeModel:
-    """The model with the instrument, which has been lent, at hand."""
+    """The model with the probe effect, which is registered temporarily."""
     table = model.model_dump(exclude_none=True)
     table["own_effects"] = (*model.own_effects, str(PROBE))
     return model_type(table["own_effects"]).model_validate(table)
@@ -102,7 +102,7 @@ def responses(problem: LeastSquaresProblem, point: ParameterPoint, looked: Seque
 
     Elements and steps are those of a first look. Raises `SimulationError` where a run cannot be simulated with them.
     """
-    with user_effects.lent(str(PROBE), PROBE.read_text(encoding="utf-8")):
+    with user_effects.temporarily_registered(str(PROBE), PROBE.read_text(encoding="utf-8")):
         jobs = [_begun(problem, point, run, looked) for run in problem.runs]
         by_run = [_gathered(problem, run, looked, one) for run, one in zip(problem.runs, jobs, strict=True)]
     return [[matrices[k] for matrices in by_run] for k in range(len(looked))]

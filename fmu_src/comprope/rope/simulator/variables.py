@@ -1,0 +1,108 @@
+"""FMI variables of the rope: parameters, inputs and outputs, from the declarations of the model."""
+
+from typing import Any
+
+from ...fmi.model_interface import Variable, parameters_of
+from ..effects import REGISTRY, names_of
+from ..parameters import Base
+from ..runtime.parameter_vector import COMPONENTS
+from .rope import values_of
+
+ENDS = ("car", "counterweight")
+_OUTPUTS = (  # name, unit, nominal, help
+    ("sheave_force", "N", 1000.0, "vertical force of the rope on the sheave, up positive; its weight when at rest"),
+    ("sheave_displacement", "m", 0.01, "height of the axle above where it is built, up positive"),
+    ("sheave_velocity", "m/s", 0.01, "vertical velocity of the sheave, up positive"),
+    ("sheave_angle", "rad", 100.0, "angle of the sheave, positive while the car goes up"),
+    ("sheave_angular_velocity", "rad/s", 5.0, "angular velocity of the sheave, positive while the car goes up"),
+    ("car_end_tension", "N", 1000.0, "vertical pull of the rope on the car"),
+    ("counterweight_end_tension", "N", 1000.0, "vertical pull of the rope on the counterweight"),
+    ("car_side_max_displacement", "m", 0.05, "largest outward displacement on the car's side, above the axle"),
+    ("car_side_max_height", "m", 10.0, "height of that displacement above the bottom landing"),
+    (
+        "counterweight_side_max_displacement",
+        "m",
+        0.05,
+        "largest outward displacement on the counterweight's side, above the axle",
+    ),
+    ("counterweight_side_max_height", "m", 10.0, "height of that displacement above the bottom landing"),
+    ("energy_residual", "J", 1.0, "energy balance: stored energy - initial value - work + losses; zero for exact integration"),
+)
+_COUNTS = (
+    ("newton_iterations", "Newton iterations since the start"),
+    ("halvings", "time steps halved since the start, because they did not converge"),
+)
+
+
+def variables_of(model: Base) -> tuple[Variable, ...]:
+    """All variables of the rope; parameters start at the values of `model`, sensors are as many as its."""
+    return (*_parameters(model), *_inputs(model), *_outputs(len(model.sensors)))
+
+
+def _parameters(model: Base) -> tuple[Variable, ...]:
+    values = values_of(model)
+    groups: dict[str, type[Any]] = COMPONENTS | {f"effects.{name}": REGISTRY[name] for name in names_of(model)}
+    own = {
+        key: {name.rpartition(".")[2]: value for name, value in values.items() if name.startswith(f"{key}.")} for key in groups
+    }
+    variables = tuple(one for key, component in groups.items() for one in parameters_of(key, component, own[key]))
+    return (*variables, *_sensor_parameters(model), *_options())
+
+
+def _sensor_parameters(model: Base) -> tuple[Variable, ...]:
+    found: list[Variable] = []
+    for k, sensor in enumerate(model.sensors, 1):
+        help = f"height of sensor {k} ({sensor.name}) above the bottom landing; negative in the pit"
+        found.append(Variable(f"sensors[{k}].height", "real", "parameter", help, "m", sensor.height, -20.0, 1000.0, 10.0))
+        side = f"sensor {k} looks at the counterweight's side; false: at the car's"
+        found.append(
+            Variable(f"sensors[{k}].on_counterweight_side", "boolean", "parameter", side, start=sensor.side == "counterweight")
+        )
+    return tuple(found)
+
+
+def _options() -> tuple[Variable, ...]:
+    derivatives = "velocity and acceleration inputs are connected; false: they are found from the positions"
+    at_end = (
+        "inputs hold for the end of the communication step, as when the drive steps first; "
+        "false: for its start, as FMI has it, and are extrapolated"
+    )
+    return (
+        Variable("derivative_inputs", "boolean", "parameter", derivatives, start=False),
+        Variable("inputs_at_end", "boolean", "parameter", at_end, start=False),
+    )
+
+
+def _inputs(model: Base) -> tuple[Variable, ...]:
+    height = model.shaft.height
+    at = {"car": 0.0, "counterweight": height}
+    positions = [
+        Variable(
+            f"{end}_position", "real", "input", f"height of the rope's end under the {end}", "m", at[end], -20.0, 1100.0, height
+        )
+        for end in ENDS
+    ]
+    rates = [
+        Variable(
+            f"{end}_{word}", "real", "input", f"{word} of that end, up positive; see derivative_inputs", unit, 0.0, nominal=1.0
+        )
+        for end in ENDS
+        for word, unit in (("velocity", "m/s"), ("acceleration", "m/s2"))
+    ]
+    outward = [
+        Variable(f"{end}_lateral_displacement", "real", "input", "outward displacement of that end", "m", 0.0, -5.0, 5.0, 0.01)
+        for end in ENDS
+    ]
+    return (*positions, *rates, *outward)
+
+
+def _outputs(sensors: int) -> tuple[Variable, ...]:
+    seen: list[Variable] = []
+    for k in range(1, sensors + 1):
+        help = f"outward displacement of the rope at sensor {k}, from the vertical through the sheave's side"
+        seen.append(Variable(f"lateral_displacement[{k}]", "real", "output", help, "m", nominal=0.05, display_unit="mm"))
+        gap = f"the rope passes sensor {k}; false: its end has passed, and the displacement is that of the end"
+        seen.append(Variable(f"in_view[{k}]", "boolean", "output", gap))
+    numbers = [Variable(name, "real", "output", help, unit, nominal=nominal) for name, unit, nominal, help in _OUTPUTS]
+    counts = [Variable(name, "integer", "output", help, start=None) for name, help in _COUNTS]
+    return (*seen, *numbers, *counts)
