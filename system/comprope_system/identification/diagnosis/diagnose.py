@@ -1,7 +1,7 @@
-"""Which physical effect is missing: rank all hypotheses about a campaign and say what can be said.
+"""Diagnosis: which physical effect is missing from the model of a campaign.
 
-One linearisation about the model file gives every effect's expected size and what it would explain,
-plant parameters refitted beside it. The most promising are then refined on the full model.
+Linear screening about the fitted plant predicts the size of every effect and the chi-square that it would leave, with the
+plant's parameters refitted; the most promising effects are then fitted on the full model and ranked by their scores.
 """
 
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
 from ..progress import ProgressCallback, no_progress
 from ..settings import CANDIDATES, VERDICT
-from .candidate_fits import CandidateFit, fit_candidates, fit_pair, least_chi_square, refit_from_other_masses
+from .candidate_fits import CandidateFit, FitContext, fit_candidates, fit_pair, least_chi_square, refit_from_other_masses
 from .linear_screening import ScreenedHypothesis, indistinguishable, screen_at_other_masses, screen_hypotheses
 
 Floats = NDArray[np.float64]
@@ -29,7 +29,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Candidate:
-    """One effect in the ranking."""
+    """Effect in the ranking.
+
+    `refined`: fitted on the full model, not only screened. `distinct_share` is the share of the effect's response that the
+    plant's parameters cannot imitate; `detection_limits` are the least sizes of its parameters that these data would show, by
+    model key.
+    """
 
     fitted: FitResult
     log_score: float
@@ -40,14 +45,18 @@ class Candidate:
 
     @property
     def hypothesis(self) -> Hypothesis:
-        """What the effect does."""
+        """Hypothesis that was fitted."""
         assert self.fitted.hypothesis is not None
         return self.fitted.hypothesis
 
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """The outcome: `none` is the refitted model without a new effect; probabilities include "adequate" and "unknown"."""
+    """Outcome of a diagnosis.
+
+    `nominal` are the predictions of the model file, `baseline` is the fit of the plant alone; `probabilities` are those of the
+    effects, of "adequate" and of "unknown"; `verdict` is an effect or None, `kind` that of the verdict as in the JSON result.
+    """
 
     campaign: Campaign
     problem: LeastSquaresProblem
@@ -67,77 +76,81 @@ def diagnose(
     base: ParameterPoint | None = None,
     without: Sequence[str] = (),
 ) -> Diagnosis:
-    """Rank all effects against a campaign, `without` some; `base` has effects that are in the model already."""
+    """Rank all effects as explanations of the fit runs of a campaign, except those in `without`.
+
+    `base` has the effects that are in the model already.
+    """
     origin = base or ParameterPoint()
     runs = campaign.of_role("fit")
-    report_progress("the model as it is")
+    report_progress("model as in the file")
     nominal = collect_predictions(runs, submit_replays(campaign, runs, origin, executor))
     problem = replace(build_problem(campaign, runs, executor, nominal), ruled_out=frozenset(without))
     report_progress("plant parameters")
     initial_fit = evaluate(problem, None, np.zeros(len(PLANT_PARAMETERS)), origin)
     baseline = fit_with_mass_search(problem, initial_fit, origin)
-    report_progress("every effect, linearised")
-    found = fit_candidates(problem, origin, screen_hypotheses(problem, origin, baseline, initial_fit), baseline, report_progress)
-    if least_chi_square(found, baseline) > CANDIDATES.mass_threshold * len(problem.data):
-        report_progress("every effect, from other masses of the rope")
-        found = refit_from_other_masses(
-            problem, origin, screen_at_other_masses(problem, origin, initial_fit), baseline, found, report_progress
-        )
+    report_progress("linear screening of all effects")
+    context = FitContext(problem, origin, baseline, report_progress)
+    found = fit_candidates(context, screen_hypotheses(problem, origin, baseline, initial_fit))
+    if least_chi_square(found, baseline.chi_square) > CANDIDATES.mass_threshold * len(problem.data):
+        report_progress("linear screening at other masses of the rope")
+        found = refit_from_other_masses(context, screen_at_other_masses(problem, origin, initial_fit), found)
     diagnosis = _assembled(campaign, problem, nominal, baseline, found)
-    if diagnosis.kind == "unknown_effect" and (pair := fit_pair(problem, origin, found, baseline, report_progress)):
+    if diagnosis.kind == "unknown_effect" and (pair := fit_pair(context, found)):
         return _assembled(campaign, problem, nominal, baseline, [*found, pair])
     return diagnosis
 
 
 def _assembled(
-    campaign: Campaign, problem: LeastSquaresProblem, nominal: Predictions, baseline: FitResult, found: list[CandidateFit]
+    campaign: Campaign, problem: LeastSquaresProblem, nominal: Predictions, baseline: FitResult, found: Sequence[CandidateFit]
 ) -> Diagnosis:
+    """Diagnosis from candidate fits: probabilities in proportion to the exponential of the scores."""
     count = len(problem.data)
     scores = {"adequate": log_score(baseline.chi_square, count, baseline.prior_cost)}
     scores |= {one.hypothesis.effect: one.log_score(count) for one in found}
-    scores["unknown"] = _unknown(baseline, found, count)
+    scores["unknown"] = _unknown_score(baseline, found, count)
     top = max(scores.values())
     weights = {name: float(np.exp(value - top)) for name, value in scores.items()}
     probabilities = {name: weight / sum(weights.values()) for name, weight in weights.items()}
-    ranking = tuple(
-        _candidate(one, scores, probabilities, count) for one in sorted(found, key=lambda one: -scores[one.hypothesis.effect])
-    )
+    best_first = sorted(found, key=lambda one: -scores[one.hypothesis.effect])
+    ranking = tuple(_candidate(one, scores, probabilities, count) for one in best_first)
     verdict, kind = _verdict(probabilities, ranking)
     return Diagnosis(campaign, problem, nominal, baseline, ranking, probabilities, _indistinguishable_pairs(found), verdict, kind)
 
 
-def _unknown(baseline: FitResult, found: list[CandidateFit], count: int) -> float:
-    """Score of an effect that nobody knows, which would leave about as much as one that is known and explains something."""
-    left, bent = 1.0, baseline.prior_cost
+def _unknown_score(baseline: FitResult, found: Sequence[CandidateFit], count: int) -> float:
+    """Score of an effect outside the library.
+
+    It is assumed to leave about as much as the best known effect that explains anything, at least `VERDICT.unknown_share` of the
+    excess of chi-square, and to have the prior cost of the same fit.
+    """
+    left, cost = 1.0, baseline.prior_cost
     known = max(found, key=lambda one: one.log_score(count), default=None)
     if known and known.log_score(count) > log_score(baseline.chi_square, count, baseline.prior_cost):
-        left, bent = min(known.fitted.chi_square / count, VERDICT.unknown_chi_square), known.fitted.prior_cost
+        left, cost = min(known.fitted.chi_square / count, VERDICT.unknown_chi_square), known.fitted.prior_cost
     excess = max(baseline.chi_square / count - 1.0, 0.0)
-    return log_score(
-        count * max(left, 1.0 + VERDICT.unknown_share * excess),
-        count,
-        VERDICT.unknown_penalty + min(bent, VERDICT.unknown_prior_cost),
-    )
+    chi_square = count * max(left, 1.0 + VERDICT.unknown_share * excess)
+    return log_score(chi_square, count, VERDICT.unknown_penalty + min(cost, VERDICT.unknown_prior_cost))
 
 
 def _candidate(one: CandidateFit, scores: dict[str, float], probabilities: dict[str, float], count: int) -> Candidate:
-    name = one.hypothesis.effect
-    return Candidate(
-        one.fitted, scores[name], probabilities[name], one.refined, one.screening.distinct_share, _least(one.screening, count)
-    )
+    """Entry of the ranking."""
+    name, screening = one.hypothesis.effect, one.screening
+    limits = _detection_limits(screening, count)
+    return Candidate(one.fitted, scores[name], probabilities[name], one.refined, screening.distinct_share, limits)
 
 
 def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) -> tuple[str | None, str]:
+    """Effect of the highest probability, None for adequate and unknown, and the kind of the verdict."""
     winner = max(probabilities, key=lambda name: probabilities[name])
     if winner in ("adequate", "unknown"):
         return None, "adequate" if winner == "adequate" else "unknown_effect"
-    # Of several effects at once the first explains most.
+    # A combination of effects begins with the one that explains most.
     top = (ranking[0].hypothesis.parts or (ranking[0].hypothesis,))[0]
     return top.effect, "instrument" if top.is_instrument else "known_effect"
 
 
-def _least(one: ScreenedHypothesis, count: int) -> dict[str, float]:
-    """Least size of each parameter that these data would show: a misfit raised by three tenths."""
+def _detection_limits(one: ScreenedHypothesis, count: int) -> dict[str, float]:
+    """Least size of each parameter, by model key, that raises chi-square by `VERDICT.detection_increase` per datum."""
     sizes = np.sqrt(VERDICT.detection_increase * count) / np.maximum(np.linalg.norm(one.orthogonal_part, axis=0), 1e-300)
     return {
         key: float(size * abs(amount))
@@ -147,12 +160,12 @@ def _least(one: ScreenedHypothesis, count: int) -> dict[str, float]:
     }
 
 
-def _indistinguishable_pairs(found: list[CandidateFit]) -> tuple[tuple[str, str], ...]:
-    """Pairs of effects whose traces in these data, free of the plant's, point the same way."""
+def _indistinguishable_pairs(found: Sequence[CandidateFit]) -> tuple[tuple[str, str], ...]:
+    """Pairs of effects whose responses, with the plant projected out, are nearly parallel."""
     pairs = []
-    traces = [one.screening for one in found]
-    for k, a in enumerate(traces):
-        for b in traces[k + 1 :]:
+    responses = [one.screening for one in found]
+    for k, a in enumerate(responses):
+        for b in responses[k + 1 :]:
             if indistinguishable(a, b):
                 pairs.append((a.hypothesis.effect, b.hypothesis.effect))
     return tuple(pairs)

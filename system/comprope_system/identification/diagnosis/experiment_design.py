@@ -1,4 +1,7 @@
-"""The next run to measure: the one in which the two best rivals differ most, each as fitted to the runs there are."""
+"""Experiment design: the run in which the two best fits differ most, each as fitted to the measured runs.
+
+The criterion is the whitened distance of their predictions, as in discrimination between models (Hunter and Reiner 1965).
+"""
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
@@ -26,7 +29,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ProposedRun:
-    """A run to measure: `distance` is how many standard deviations of noise and discrepancy the rivals are apart, in the mean."""
+    """Run to measure: factor of the sheave's mass, trip [m, m/s], and rms distance of both fits in standard deviations."""
 
     weight: float
     start: float
@@ -35,7 +38,7 @@ class ProposedRun:
     distance: float
 
     def sentence(self) -> str:
-        """One line."""
+        """The run in one line."""
         way = "up" if self.end > self.start else "down"
         trip = f"{way} from {self.start:.3g} m to {self.end:.3g} m at {self.speed:.3g} m/s"
         return f"{trip} with {self.weight:g} times the sheave's weight"
@@ -49,21 +52,21 @@ class ProposedRun:
 
 
 def is_inconclusive(diagnosis: Diagnosis) -> bool:
-    """Whether another run could change the verdict."""
+    """Whether another run could change the verdict: it is doubtful, or the effect is unknown."""
     return (
         diagnosis.kind != "adequate" and max(diagnosis.probabilities.values()) < EXPERIMENTS.conclusive_probability
     ) or diagnosis.kind == "unknown_effect"
 
 
 def best_two_fits(diagnosis: Diagnosis) -> tuple[tuple[str, FitResult], tuple[str, FitResult]] | None:
-    """The two best fits on the full model, that without an effect among them; None if there is one only."""
+    """The two best fits on the full model with their names, the plant alone among them; None if there is only that."""
     fitted = [(one.hypothesis.effect, one.fitted) for one in diagnosis.ranking if one.refined]
     found = sorted([*fitted, ("nothing missing", diagnosis.baseline)], key=lambda one: one[1].chi_square)
     return (found[0], found[1]) if len(found) > 1 else None
 
 
 def rank_candidate_runs(diagnosis: Diagnosis, executor: Executor) -> list[ProposedRun]:
-    """Runs that would separate the two best rivals, the best first; their fits are not repeated with the new run."""
+    """Candidate runs by the distance of the two best fits, largest first; the fits are not repeated with the new run."""
     pair = best_two_fits(diagnosis)
     if pair is None:
         return []
@@ -76,30 +79,31 @@ def rank_candidate_runs(diagnosis: Diagnosis, executor: Executor) -> list[Propos
     for one, run, both in jobs:
         try:
             a, b = (collect_predictions([run], some) for some in both)
-        except CompropeError:  # a weight or a trip that this rope cannot do
+        except CompropeError:  # a mass or a trip that the model does not accept
             continue
         found.append(replace(one, distance=_distance(diagnosis.campaign, run, a, b)))
     return sorted(found, key=lambda one: -one.distance)
 
 
 def candidate_runs(campaign: Campaign) -> list[tuple[ProposedRun, Run]]:
-    """Every run that is considered: sheave's weight, direction, distance, speed."""
+    """All combinations of sheave mass, distance, speed and direction, within the positions that measured runs have covered."""
     height = campaign.model.shaft.height
     lowest = min(float(run.trip.position(run.time).min()) for run in campaign.runs)
     highest = max(float(run.trip.position(run.time).max()) for run in campaign.runs)
     top = max(float(np.abs(run.trip.velocity(run.time)).max()) for run in campaign.runs)
-    pull = max(float(np.abs(run.trip.acceleration(run.time)).max()) for run in campaign.runs)
+    acceleration = max(float(np.abs(run.trip.acceleration(run.time)).max()) for run in campaign.runs)
     found = []
     for weight, share, speed, up in product(EXPERIMENTS.weights, EXPERIMENTS.distances, EXPERIMENTS.speeds, (True, False)):
         reach = min(share * height, highest - lowest)
         ends = (lowest, lowest + reach) if up else (highest, highest - reach)
-        one = ProposedRun(weight, *ends, min(speed * top, (EXPERIMENTS.acceleration_share * pull * reach) ** 0.5), 0.0)
-        found.append((one, _run(campaign, one, pull)))
+        one = ProposedRun(weight, *ends, min(speed * top, (EXPERIMENTS.acceleration_share * acceleration * reach) ** 0.5), 0.0)
+        found.append((one, _run(campaign, one, acceleration)))
     return found
 
 
-def _run(campaign: Campaign, one: ProposedRun, pull: float) -> Run:
-    ramp, way = one.speed / pull, abs(one.end - one.start)
+def _run(campaign: Campaign, one: ProposedRun, acceleration: float) -> Run:
+    """Trip with trapezoidal acceleration of the given maximum [m/s2], sampled with rests before and after."""
+    ramp, way = one.speed / acceleration, abs(one.end - one.start)
     cruise = way / one.speed - 1.5 * ramp
     phases = np.array([0.5 * ramp, 0.5 * ramp, 0.5 * ramp, cruise, 0.5 * ramp, 0.5 * ramp, 0.5 * ramp])
     trip = Trip((jerk_limited(one.start, one.end - one.start, EXPERIMENTS.rest_before, phases),), 0.0, "profile")
@@ -112,11 +116,11 @@ def _run(campaign: Campaign, one: ProposedRun, pull: float) -> Run:
 
 
 def _distance(campaign: Campaign, run: Run, a: dict[tuple[str, str], Floats], b: dict[tuple[str, str], Floats]) -> float:
-    """Root mean square of the whitened difference of two predictions."""
+    """Root mean square of the whitened difference of two predictions of a run."""
     total, count = 0.0, 0
     for column, channel in campaign.channels.items():
         one, other = a[run.file, column], b[run.file, column]
-        stated = channel.model_copy(update={"noise": channel.noise or _noise(campaign, column)})
+        stated = channel.model_copy(update={"noise": channel.noise or _assumed_noise(campaign, column)})
         weighed = whiten_channel(run, stated, one, np.isfinite(one) & np.isfinite(other))
         if weighed:
             apart = weighed.whiten(weighed.means(one) - weighed.means(other))
@@ -124,7 +128,7 @@ def _distance(campaign: Campaign, run: Run, a: dict[tuple[str, str], Floats], b:
     return float((total / max(count, 1)) ** 0.5)
 
 
-def _noise(campaign: Campaign, column: str) -> float:
-    """A channel's noise in its unit where none is stated: a hundredth of how it varies."""
+def _assumed_noise(campaign: Campaign, column: str) -> float:
+    """Noise of a channel, in its unit, that is assumed where none is stated: a share of its standard deviation."""
     spread: Sequence[float] = [float(np.nanstd(run.values[column])) for run in campaign.runs]
     return max(EXPERIMENTS.assumed_noise * float(np.median(spread)) / campaign.channels[column].scale, 1e-9)

@@ -1,7 +1,7 @@
-"""Which frequencies a swaying building would have: the model's linear response over a grid of them.
+"""Frequencies to try for oscillating effects: the model's linear response to a sway over a grid, and peaks of the residual.
 
-A record's spectrum alone misleads: the rope rings at frequencies of its own, which change on the way, and beats with what
-drives it. Here each run has an amplitude and a phase of its own, and the plant is refitted beside them.
+The spectrum of a record alone misleads: the rope oscillates at natural frequencies of its own, which change during the trip, and
+beats with the excitation. In the scan each run has an amplitude and a phase of its own, and the plant is refitted beside them.
 """
 
 from collections.abc import Mapping, Sequence
@@ -29,7 +29,7 @@ EFFECT = "building_sway"
 
 
 def sway_frequencies(problem: LeastSquaresProblem, fitted: FitResult, coarse: float) -> tuple[float, ...]:
-    """The frequencies [Hz] at which a sway would explain most of what a fit leaves, on elements `coarse` times as long."""
+    """Frequencies [Hz] at which a sway explains most of the residual of a fit, on elements `coarse` times as long."""
     campaign = problem.campaign
     if EFFECT not in names_of(campaign.model):
         return ()
@@ -37,23 +37,18 @@ def sway_frequencies(problem: LeastSquaresProblem, fitted: FitResult, coarse: fl
     jobs = []
     for run in problem.runs:
         there = run_at_point(campaign.model, run, problem.with_held_fixed(fitted.point), coarse)
-        whitened_channels = [one for one in problem.whitened_channels if one.run == run.file]
-        jobs.append(problem.executor.submit(responses, campaign.model, there, campaign.channels, whitened_channels, grid, coarse))
+        channels = [one for one in problem.whitened_channels if one.run == run.file]
+        jobs.append(problem.executor.submit(sway_responses, campaign.model, there, campaign.channels, channels, grid, coarse))
     try:
-        found = explained(problem, fitted, [job.result() for job in jobs])
-    except SimulationError:  # elements or steps too long for this rope
+        explained = explained_squares(problem, fitted, [job.result() for job in jobs])
+    except SimulationError:  # elements or time steps too long for this rope
         return ()
-    peaks, _ = find_peaks(found)
-    return tuple(round(_top(grid, found, k), 4) for k in sorted(peaks, key=lambda k: -found[k])[: FREQUENCIES.sway_count])
+    peaks, _ = find_peaks(explained)
+    best = sorted(peaks, key=lambda k: -explained[k])[: FREQUENCIES.sway_count]
+    return tuple(round(_parabola_maximum(grid, explained, k), 4) for k in best)
 
 
-def _top(grid: Floats, found: Floats, k: int) -> float:
-    """Where a parabola through a peak and its neighbours is highest."""
-    low, top, high = found[k - 1 : k + 2]
-    return float(grid[k] + 0.5 * (grid[1] - grid[0]) * (low - high) / (low - 2.0 * top + high))
-
-
-def responses(
+def sway_responses(
     model: RopeModel,
     run: Run,
     channels: Mapping[str, Channel],
@@ -61,7 +56,7 @@ def responses(
     grid: Floats,
     coarse: float,
 ) -> Floats:
-    """Whitened responses (data of the run, frequencies, 2) to a sway of 1 m, as its sine and its cosine."""
+    """Whitened responses (data of the run, frequencies, 2) to the sine and the cosine of a sway of 1 m."""
     amplitude, frequency, phase = (f"effects.{EFFECT}.{name}" for name in ("amplitude", "frequency", "phase"))
     at = {f"{k}.{turn}": {frequency: float(f), phase: 0.5 * pi * turn} for k, f in enumerate(grid) for turn in (0, 1)}
     directions = {name: {amplitude: 1.0} for name in at}
@@ -70,8 +65,8 @@ def responses(
     return np.column_stack(columns).reshape(-1, len(grid), 2)
 
 
-def explained(problem: LeastSquaresProblem, fitted: FitResult, responses: Sequence[Floats]) -> Floats:
-    """How much of the squares that a fit leaves a sway of each frequency takes away (frequencies,)."""
+def explained_squares(problem: LeastSquaresProblem, fitted: FitResult, responses: Sequence[Floats]) -> Floats:
+    """Decrease of chi-square (frequencies,) by a sway of each frequency, with the plant refitted linearly."""
     others, count = fit_directions(fitted.hypothesis), len(problem.data)
     plant, _ = np.linalg.qr(np.vstack([fitted.jacobian, np.diag([1.0 / one.prior for one in others])]))
     left = _orthogonal_to(plant, np.append(problem.residual(fitted.predictions), np.zeros(len(others))))
@@ -81,30 +76,35 @@ def explained(problem: LeastSquaresProblem, fitted: FitResult, responses: Sequen
         for j, (rows, of_run) in enumerate(zip(problem.rows_of_runs, responses, strict=True)):
             columns[:count][rows, 2 * j : 2 * j + 2] = of_run[:, k]
         columns = _orthogonal_to(plant, columns)
-        found.append(
-            float(left @ columns @ np.linalg.lstsq(columns.T @ columns, columns.T @ left, rcond=FREQUENCIES.sway_cutoff)[0])
-        )
+        solution = np.linalg.lstsq(columns.T @ columns, columns.T @ left, rcond=FREQUENCIES.sway_cutoff)[0]
+        found.append(float(left @ columns @ solution))
     return np.array(found)
 
 
-def _orthogonal_to(plant: Floats, columns: Floats) -> Floats:
-    """What of some columns an orthonormal basis `plant` cannot imitate."""
-    return np.asarray(columns - plant @ (plant.T @ columns))
-
-
 def residual_peak_frequencies(problem: LeastSquaresProblem, predictions: Predictions) -> tuple[float, ...]:
-    """The frequencies [Hz] of the highest peaks in the residual of the lateral channels, over all runs."""
+    """Frequencies [Hz] of the highest peaks in the Lomb-Scargle periodograms of the lateral channels' residuals, summed."""
     grid = np.linspace(FREQUENCIES.peak_lowest, FREQUENCIES.peak_highest, FREQUENCIES.peak_grid)
     power = np.zeros(len(grid))
     for run in problem.runs:
         measured = relative_to_rest(run.values, run, problem.campaign.channels)
         for column, channel in problem.campaign.channels.items():
-            left = measured[column] - predictions[run.file, column]
-            known = np.isfinite(left)
+            residual = measured[column] - predictions[run.file, column]
+            known = np.isfinite(residual)
             if channel.quantity == "lateral_displacement" and known.sum() > FREQUENCIES.min_samples:
                 every = max(1, int(known.sum() / FREQUENCIES.max_samples))
-                t, x = run.time[known][::every], left[known][::every]
+                t, x = run.time[known][::every], residual[known][::every]
                 power += lombscargle(t, x - x.mean(), 2.0 * np.pi * grid) / max(float(np.var(x)), 1e-300)
     peaks, _ = find_peaks(power)
     highest = sorted(peaks, key=lambda k: -power[k])[: FREQUENCIES.peak_count]
     return tuple(round(float(grid[k]), 4) for k in highest)
+
+
+def _parabola_maximum(grid: Floats, values: Floats, k: int) -> float:
+    """Abscissa of the maximum of the parabola through a peak and its neighbours on an even grid."""
+    low, top, high = values[k - 1 : k + 2]
+    return float(grid[k] + 0.5 * (grid[1] - grid[0]) * (low - high) / (low - 2.0 * top + high))
+
+
+def _orthogonal_to(basis: Floats, columns: Floats) -> Floats:
+    """Part of the columns (n,) or (n, k) orthogonal to an orthonormal basis (n, m)."""
+    return np.asarray(columns - basis @ (basis.T @ columns))

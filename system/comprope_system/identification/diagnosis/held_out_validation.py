@@ -21,7 +21,7 @@ from .diagnose import Candidate, Diagnosis
 
 @dataclass(frozen=True)
 class ValidatedDiagnosis:
-    """A diagnosis with its comparisons: the model file as it stands, its plant refitted, and each refined candidate."""
+    """Diagnosis with comparisons on all runs: of the model file, of the fitted plant alone, of each candidate fit by number."""
 
     diagnosis: Diagnosis
     before: Comparison
@@ -31,12 +31,12 @@ class ValidatedDiagnosis:
 
     @property
     def best(self) -> Comparison:
-        """The comparison of what the verdict names, or of the model as it was, refitted."""
+        """Comparison of the verdict's fit, or of the fitted plant alone without a verdict."""
         return self.candidates.get(0, self.refitted) if self.diagnosis.verdict else self.refitted
 
 
 def validate(diagnosis: Diagnosis, executor: Executor, base: ParameterPoint | None = None) -> ValidatedDiagnosis:
-    """Judge what the diagnosis fitted on all runs; those held out are replayed."""
+    """Comparisons of a diagnosis's fits on all runs, those held out included."""
     campaign = diagnosis.campaign
     before = compare(campaign, executor, base, diagnosis.nominal)
     fits = {k: one.fitted for k, one in enumerate(diagnosis.ranking) if one.refined}
@@ -75,7 +75,7 @@ def to_json(validated: ValidatedDiagnosis) -> dict[str, Any]:
 
 
 def ranking(validated: ValidatedDiagnosis) -> list[dict[str, Any]]:
-    """One entry for each effect, most probable first; several effects at once stand under the name of the first."""
+    """One entry for each effect, most probable first; a combination of effects has the name of its first."""
     found: dict[str, dict[str, Any]] = {}
     for k, one in enumerate(validated.diagnosis.ranking):
         entry = _entry(validated, k, one)
@@ -98,7 +98,7 @@ def _entry(validated: ValidatedDiagnosis, k: int, one: Candidate) -> dict[str, A
         "reduced_chi_square": reduced_chi_square(validated, one), "misfit_per_datum": reduced_chi_square(validated, one),
         "visible_share": one.distinct_share, "least_detectable": short_names(parts[0], one.detection_limits),
     }  # fmt: skip
-    # Beside several effects at once there are values that an effect cannot do without: airflow has no force without drag.
+    # Besides combined effects there are parameters that an effect requires: airflow exerts no force without drag.
     others = {name: short_names(name, values) for name in {key.split(".")[1] for key in values} - {parts[0]}}
     with_it = {name: own for name, own in others.items() if name in parts}
     brought = {name: own for name, own in others.items() if name not in parts}
@@ -106,17 +106,17 @@ def _entry(validated: ValidatedDiagnosis, k: int, one: Candidate) -> dict[str, A
 
 
 def reduced_chi_square(validated: ValidatedDiagnosis, one: Candidate) -> float:
-    """Weighed squared error per datum that an effect leaves: near 1, nothing but noise."""
+    """Chi-square per datum with an effect: near 1, noise alone is left."""
     return one.fitted.chi_square / max(len(validated.diagnosis.problem.data), 1)
 
 
 def effects_of(hypothesis: Hypothesis) -> list[str]:
-    """The effects that act in a hypothesis, the first the one that explains most."""
+    """Names of the effects in a hypothesis; of a combination the first explains most."""
     return [part.effect for part in (hypothesis.parts or (hypothesis,))]
 
 
 def errors_after(validated: ValidatedDiagnosis, k: int, one: Candidate) -> tuple[float, float]:
-    """Errors with an effect on fit and validate runs; where it was not refined, in proportion to its misfit."""
+    """Errors (NRMSE) with an effect on fit and validate runs; if it was only screened, estimated from its chi-square."""
     if k in validated.candidates:
         return nrmse_of_fit(validated, k), validated.candidates[k].validate_nrmse
     share = (one.fitted.chi_square / max(validated.diagnosis.baseline.chi_square, 1e-300)) ** 0.5
@@ -124,31 +124,31 @@ def errors_after(validated: ValidatedDiagnosis, k: int, one: Candidate) -> tuple
 
 
 def nrmse_of_fit(validated: ValidatedDiagnosis, k: int) -> float:
-    """Error of a refined candidate on the fit runs."""
+    """Error (NRMSE) of a candidate fit on the fit runs."""
     campaign = validated.diagnosis.campaign
     return nrmse(campaign, campaign.of_role("fit"), validated.candidates[k].predictions)
 
 
 def plant(diagnosis: Diagnosis) -> dict[str, Estimate]:
-    """The plant as refitted beside the verdict's effect, or alone."""
+    """Estimates of the plant's parameters in the verdict's fit, or in that of the plant alone."""
     fitted = _best(diagnosis)
     return plant_estimates(diagnosis.campaign, fitted, standard_error_scale(fitted, len(diagnosis.problem.data)))
 
 
 def implausible_parameters(diagnosis: Diagnosis) -> list[tuple[str, float, float]]:
-    """Plant parameters that no data sheet is so wrong about: key, relative change, and in how many prior deviations."""
+    """Plant parameters too far from their prior: key, relative change, and deviation in prior standard deviations."""
     fitted = _best(diagnosis)
     moved = [(one, float(c), float(c) / one.prior) for one, c in zip(PLANT_PARAMETERS, fitted.coefficients, strict=False)]
     return [(one.name, expm1(c), off) for one, c, off in moved if one.relative and abs(off) > VERDICT.implausible_deviation]
 
 
 def _best(diagnosis: Diagnosis) -> FitResult:
-    """The fit of the verdict's effect, or of the plant alone."""
+    """Fit of the verdict's effect, or of the plant alone."""
     return diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.baseline
 
 
 def parameter_shifts(diagnosis: Diagnosis) -> list[tuple[str, Estimate, float]]:
-    """Plant parameters by key, with value and how many prior deviations they were moved, the most moved first."""
+    """Plant parameters: key, estimate, and deviation in prior standard deviations, largest deviation first."""
     fitted = _best(diagnosis)
     values = plant(diagnosis)
     moved = [(one.name, values[one.name], float(fitted.coefficients[k]) / one.prior) for k, one in enumerate(PLANT_PARAMETERS)]
@@ -157,5 +157,5 @@ def parameter_shifts(diagnosis: Diagnosis) -> list[tuple[str, Estimate, float]]:
 
 
 def full_name(hypothesis: Hypothesis) -> str:
-    """The name under which `comprope add` takes an effect; an instrument's fault with its channel."""
+    """Name of an effect as `comprope add` takes it; of an instrument's fault with its channel."""
     return effect_name((hypothesis.parts or (hypothesis,))[0])

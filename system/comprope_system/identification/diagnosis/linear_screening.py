@@ -1,4 +1,8 @@
-"""The linear look at every hypothesis: what it would explain beside the plant, and where its refinement begins."""
+"""Linear screening: what each hypothesis would explain beside the plant's parameters, predicted from derivatives.
+
+With the jacobian J of the plant (prior weights appended), the response S of an effect and the residual r, the coefficients of
+both are found by one linear least-squares solution; the part of S orthogonal to J, S - J J^+ S, tells effects apart.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -21,13 +25,15 @@ from ..settings import SCREENING
 from .frequency_candidates import residual_peak_frequencies, sway_frequencies
 
 Floats = NDArray[np.float64]
+Responses = Mapping[Hypothesis, Floats]
 
 
 @dataclass(frozen=True)
 class ScreenedHypothesis:
-    """A hypothesis after the linear look: start of its refinement, predicted misfit, its direction free of the plant's.
+    """Hypothesis with its linear prediction: coefficients `start` (k,), plant first, and the chi-square that it would leave.
 
-    `visible` is the share of its trace that the plant cannot imitate; `alternatives` are the ways in which its effect was tried.
+    `orthogonal_part` (N, directions) is its response with the plant's projected out, `distinct_share` the norm of that over
+    the norm of the response; `alternatives` is the number of variants of the effect that were screened.
     """
 
     hypothesis: Hypothesis
@@ -39,23 +45,23 @@ class ScreenedHypothesis:
 
     @property
     def penalised_chi_square(self) -> float:
-        """The misfit, raised as the price and the plant's strain lower the score."""
+        """Chi-square with complexity penalty and prior cost included."""
         return penalised_chi_square(self.chi_square, complexity_penalty(self.hypothesis, self.alternatives) + self.prior_cost)
 
     @property
     def prior_cost(self) -> float:
-        """What the plant costs where its refinement begins."""
+        """Cost of the plant's coefficients in the score."""
         return prior_cost(self.start)
 
     @cached_property
-    def span(self) -> Floats:
-        """An orthonormal basis (N, directions) of the directions free of the plant's."""
+    def basis(self) -> Floats:
+        """Orthonormal basis (N, directions) of the orthogonal part."""
         return np.asarray(np.linalg.qr(self.orthogonal_part)[0])
 
 
 def indistinguishable(a: ScreenedHypothesis, b: ScreenedHypothesis) -> bool:
-    """Whether two effects look the same in these data: the largest cosine between what their traces span, free of the plant's."""
-    return bool(np.linalg.svd(a.span.T @ b.span, compute_uv=False)[0] > SCREENING.indistinguishable)
+    """Whether two effects have nearly the same response: largest cosine between their orthogonal parts."""
+    return bool(np.linalg.svd(a.basis.T @ b.basis, compute_uv=False)[0] > SCREENING.indistinguishable)
 
 
 def screen_hypotheses(
@@ -65,119 +71,102 @@ def screen_hypotheses(
     nominal: FitResult | None = None,
     tried: tuple[float, ...] | None = None,
 ) -> list[ScreenedHypothesis]:
-    """Every effect's best alternative, most promising first; effects that `origin` has, or that are ruled out, are not.
+    """Best variant of every effect, most promising effect first; effects that `origin` has or that are ruled out are left out.
 
-    Looks are taken from the fit `none`, and from `nominal` as well where that fit misses much: it is bent for what it lacks.
-    `tried` are frequencies [Hz] for effects that have one; by default promising ones.
+    Residual and derivatives of the plant are those of the fit `baseline` and, where it leaves much, also those of `nominal`:
+    a fit without the missing effect has a distorted plant. `tried` are frequencies [Hz] of oscillating effects; by default
+    `promising_frequencies`.
     """
     left_out = {key.split(".")[1] for key in origin.effects} | problem.ruled_out
     known = effect_hypotheses(problem.campaign.model, promising_frequencies(problem, baseline) if tried is None else tried)
-    columns = dict(_effect_columns(problem, origin, [one for one in known if one.effect not in left_out]))
-    faults = instrument_hypotheses(problem.campaign.channels)
-    columns |= {one: effect_jacobian(problem, one, origin, baseline.predictions) for one in faults if one.effect not in left_out}
-    return best_per_effect(screen_about_fits(problem, columns, baseline, nominal))
+    responses = dict(_effect_responses(problem, origin, [one for one in known if one.effect not in left_out]))
+    faults = [one for one in instrument_hypotheses(problem.campaign.channels) if one.effect not in left_out]
+    responses |= {one: effect_jacobian(problem, one, origin, baseline.predictions) for one in faults}
+    return best_per_effect(screen_about_fits(problem, responses, baseline, nominal))
 
 
-def best_per_effect(looks: Sequence[ScreenedHypothesis]) -> list[ScreenedHypothesis]:
-    """Every effect's most promising look, the most promising effect first."""
+def best_per_effect(screened: Sequence[ScreenedHypothesis]) -> list[ScreenedHypothesis]:
+    """Best variant of every effect, most promising effect first."""
     best: dict[str, ScreenedHypothesis] = {}
-    for look in sorted(looks, key=lambda one: one.penalised_chi_square):
-        best.setdefault(look.hypothesis.effect, look)
+    for one in sorted(screened, key=lambda one: one.penalised_chi_square):
+        best.setdefault(one.hypothesis.effect, one)
     return list(best.values())
 
 
 def promising_frequencies(problem: LeastSquaresProblem, fitted: FitResult) -> tuple[float, ...]:
-    """Frequencies [Hz] to try for effects that have one: where swaying would explain most, and the residual's peaks."""
-    peaks, swayed = (
-        residual_peak_frequencies(problem, fitted.predictions),
-        sway_frequencies(problem, fitted, coarsening_factor(problem.campaign.model)),
-    )
-    return tuple(dict.fromkeys([*swayed, *peaks]))
+    """Frequencies [Hz] to screen for oscillating effects: those at which a sway explains most, and peaks of the residual."""
+    sway = sway_frequencies(problem, fitted, coarsening_factor(problem.campaign.model))
+    return tuple(dict.fromkeys([*sway, *residual_peak_frequencies(problem, fitted.predictions)]))
 
 
 def screen_about_fits(
-    problem: LeastSquaresProblem, columns: Mapping[Hypothesis, Floats], baseline: FitResult, nominal: FitResult | None
+    problem: LeastSquaresProblem, responses: Responses, baseline: FitResult, nominal: FitResult | None
 ) -> list[ScreenedHypothesis]:
-    """All looks at hypotheses with their derivatives (N, directions).
+    """All variants with responses (N, directions), screened about `baseline` and, where that leaves much, about `nominal`.
 
-    What each would leave is told as a share of what `none` leaves.
+    A chi-square predicted about `nominal` is scaled by that of `baseline` over the one predicted for the plant alone.
     """
-    looks: list[ScreenedHypothesis] = []
-    for at in (
-        [baseline] if nominal is None or baseline.chi_square < SCREENING.close_fit * len(problem.data) else [baseline, nominal]
-    ):
-        plain = solve_in_scale(problem.residual(at.predictions), at.jacobian, fit_directions(at.hypothesis), at.coefficients)
-        share = baseline.chi_square / plain.chi_square
-        looks += [look for one, by in columns.items() for look in _screened_about(problem, one, by, columns, at, share)]
-    return looks
-
-
-def _effect_columns(
-    problem: LeastSquaresProblem, origin: ParameterPoint, tried: Sequence[Hypothesis]
-) -> Iterator[tuple[Hypothesis, Floats]]:
-    """Derivatives (N, directions) of every hypothesis that can be simulated, all replays side by side.
-
-    What an effect changes is seen on a coarse mesh as well.
-    """
-    points = [origin, *(point for one in tried for point in one_step_away(origin, one))]
-    moved = iter(problem.attempts(*points, coarse=coarsening_factor(problem.campaign.model)))
-    if (before := next(moved)) is None:
-        return
-    for one in tried:
-        found = [at for _ in one.directions if (at := next(moved)) is not None]
-        if len(found) == len(one.directions):
-            yield one, finite_difference_jacobian(problem, one, before, found)
-
-
-def _screened_about(
-    problem: LeastSquaresProblem, one: Hypothesis, by: Floats, among: Mapping[Hypothesis, Floats], at: FitResult, share: float
-) -> Iterator[ScreenedHypothesis]:
-    """The hypothesis with one phase for all runs and, where it has a phase, with one for each, seen from the fit `at`.
-
-    Misfits are multiplied by `share`.
-    """
-    others, residual, begin = fit_directions(at.hypothesis), problem.residual(at.predictions), at.coefficients
-    weights = np.vstack([at.jacobian, np.diag([1.0 / p.prior for p in others])])
-    padded = np.vstack([by, np.zeros((len(others), by.shape[1]))])
-    orthogonal_part = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(by)]
-    distinct_share = float(np.linalg.norm(orthogonal_part)) / max(float(np.linalg.norm(by)), 1e-300)
-    same = sum(other.effect == one.effect for other in among)
-    start = np.concatenate([begin, np.zeros(by.shape[1])])
-    solution = solve_in_scale(residual, np.hstack([at.jacobian, by]), [*others, *one.directions], start)
-    yield ScreenedHypothesis(one, solution.coefficients, share * solution.chi_square, orthogonal_part, distinct_share, same)
-    if one.polar and len(problem.runs) > 1:
-        turned, found, chi_square = solve_per_run_phases(problem, at, by, one)
-        yield ScreenedHypothesis(turned, found, share * chi_square, orthogonal_part, distinct_share, 2 * same)
-
-
-# -- at other masses of the rope ----------------------------------------------------------------------
-#
-# A large effect swings the rope, and where the model's mass is not the rope's, its swings go out of step with those
-# measured: from there its trace looks like nothing that was measured, and the misfit without it does not tell the
-# mass either.
+    screened: list[ScreenedHypothesis] = []
+    close = nominal is None or baseline.chi_square < SCREENING.close_fit * len(problem.data)
+    for fit in [baseline] if nominal is None or close else [baseline, nominal]:
+        plant = solve_in_scale(problem.residual(fit.predictions), fit.jacobian, fit_directions(fit.hypothesis), fit.coefficients)
+        share = baseline.chi_square / plant.chi_square
+        for one in responses:
+            screened += _screened_variants(problem, one, responses, fit, share)
+    return screened
 
 
 def screen_at_other_masses(
     problem: LeastSquaresProblem, origin: ParameterPoint, initial_fit: FitResult
 ) -> list[ScreenedHypothesis]:
-    """Every effect's best look from another mass, most promising first; `begun` has the derivatives by the plant as stated."""
-    looks: list[ScreenedHypothesis] = []
-    for stand in _fits_at_masses(problem, initial_fit, origin):
-        # Where a rope is shaken it answers at that frequency, whatever its mass.
-        looks += screen_hypotheses(
-            problem, _origin_at_mass(origin, stand), stand, tried=residual_peak_frequencies(problem, stand.predictions)
-        )
-    return best_per_effect(looks)
+    """Best variant of every effect, screened at other masses of the rope, most promising first.
 
-
-def _fits_at_masses(problem: LeastSquaresProblem, initial_fit: FitResult, origin: ParameterPoint) -> Iterator[FitResult]:
-    """The model with other masses; its misfit is that with all else refitted, by the derivatives of `begun`."""
+    A large effect makes the rope oscillate, with another period where the model's mass is wrong: the response there does not
+    resemble the residual, and the fit without the effect does not reveal the mass either. `initial_fit` has the plant's
+    derivatives at its stated values.
+    """
+    screened: list[ScreenedHypothesis] = []
     for x, predictions, solution in fits_at_masses(problem, initial_fit, origin, SCREENING.masses):
         point = point_at(initial_fit.hypothesis, list(x), origin)
-        yield replace(initial_fit, coefficients=x, point=point, predictions=predictions, chi_square=solution.chi_square)
+        fit = replace(initial_fit, coefficients=x, point=point, predictions=predictions, chi_square=solution.chi_square)
+        mass = {PLANT_PARAMETERS[MASS].name: float(x[MASS])}
+        at_mass = replace(origin, plant=dict(origin.plant) | mass)
+        # A forced oscillation has the frequency of the excitation at any mass.
+        screened += screen_hypotheses(problem, at_mass, fit, tried=residual_peak_frequencies(problem, predictions))
+    return best_per_effect(screened)
 
 
-def _origin_at_mass(origin: ParameterPoint, stand: FitResult) -> ParameterPoint:
-    """Where effects' derivatives are taken for a stand: at its mass."""
-    name = PLANT_PARAMETERS[MASS].name
-    return replace(origin, plant=dict(origin.plant) | {name: float(stand.coefficients[MASS])})
+def _effect_responses(
+    problem: LeastSquaresProblem, origin: ParameterPoint, tried: Sequence[Hypothesis]
+) -> Iterator[tuple[Hypothesis, Floats]]:
+    """Responses (N, directions) of every hypothesis that can be simulated, all replays in parallel and on a coarse mesh."""
+    points = [origin, *(point for one in tried for point in one_step_away(origin, one))]
+    predicted = iter(problem.attempts(*points, coarse=coarsening_factor(problem.campaign.model)))
+    if (before := next(predicted)) is None:
+        return
+    for one in tried:
+        found = [at for _ in one.directions if (at := next(predicted)) is not None]
+        if len(found) == len(one.directions):
+            yield one, finite_difference_jacobian(problem, one, before, found)
+
+
+def _screened_variants(
+    problem: LeastSquaresProblem, one: Hypothesis, responses: Responses, fit: FitResult, share: float
+) -> Iterator[ScreenedHypothesis]:
+    """Hypothesis with the same phase in all runs and, if it has a phase, with one for each run, screened about a fit.
+
+    Chi-squares are multiplied by `share`.
+    """
+    response, others = responses[one], fit_directions(fit.hypothesis)
+    weights = np.vstack([fit.jacobian, np.diag([1.0 / p.prior for p in others])])
+    padded = np.vstack([response, np.zeros((len(others), response.shape[1]))])
+    orthogonal = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(response)]
+    distinct = float(np.linalg.norm(orthogonal)) / max(float(np.linalg.norm(response)), 1e-300)
+    variants = sum(other.effect == one.effect for other in responses)
+    start = np.concatenate([fit.coefficients, np.zeros(response.shape[1])])
+    matrix, directions = np.hstack([fit.jacobian, response]), [*others, *one.directions]
+    solution = solve_in_scale(problem.residual(fit.predictions), matrix, directions, start)
+    yield ScreenedHypothesis(one, solution.coefficients, share * solution.chi_square, orthogonal, distinct, variants)
+    if one.polar and len(problem.runs) > 1:
+        with_phases, found, chi_square = solve_per_run_phases(problem, fit, response, one)
+        yield ScreenedHypothesis(with_phases, found, share * chi_square, orthogonal, distinct, 2 * variants)
