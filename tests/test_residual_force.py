@@ -19,7 +19,7 @@ from comprope_system.identification.hypotheses.plant_parameters import PLANT_PAR
 from comprope_system.identification.prediction import replay
 from comprope_system.identification.prediction.parameter_point import ParameterPoint, collect_predictions, submit_replays
 from comprope_system.identification.reporting import figures, tables
-from comprope_system.identification.residuals.force_locations import KEY, PROBE, probed
+from comprope_system.identification.residuals.force_locations import KEY, PROBE, with_probe
 from comprope_system.identification.residuals.input_estimation import estimate_residual_force
 from comprope_system.identification.residuals.regularised_deconvolution import deconvolve, prior_root
 from comprope_system.parallel.executors import threads
@@ -57,7 +57,7 @@ def found_in(folder, measured):
 
 def moved(move):
     """A replay in which the ends go other ways: move(paths, run, grid)."""
-    plain_paths = replay._paths
+    plain_paths = replay.end_motion
 
     def other(model, run, grid):
         paths = plain_paths(model, run, grid)
@@ -66,7 +66,7 @@ def moved(move):
 
     def measured(*args):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(replay, "_paths", other)
+            patch.setattr(replay, "end_motion", other)
             return replay.replay(*args)
 
     return measured
@@ -93,7 +93,7 @@ def twisted(model, run, channels, step):
     """A replay with a pulse of torque on the sheave."""
     pulse = {KEY + "sheave_torque": TORQUE, KEY + "time": WHEN, KEY + "width": WIDTH}
     with user_effects.temporarily_registered(str(PROBE), PROBE.read_text(encoding="utf-8")):
-        return replay.replay(with_changes(probed(model), pulse), run, channels, step)
+        return replay.replay(with_changes(with_probe(model), pulse), run, channels, step)
 
 
 @pytest.fixture(scope="module")
@@ -137,7 +137,7 @@ def test_a_push_on_the_cars_end_is_found_there(pushed):
 def test_a_motion_of_the_counterweights_end_is_found_there(lagging):
     # The car's end lifts the sheave as the counterweight's does: the turning differs by some 3 mrad/s, its noise is 10.
     require(lagging, "counterweight_end_up", lambda run, time: STRETCH * run.trip.acceleration(time), 0.3, twin="car_end_up")
-    assert "hardly tell it from" in lagging[1].sentence()
+    assert "hardly distinguish it from" in lagging[1].sentence()
 
 
 @pytest.mark.slow
@@ -153,12 +153,27 @@ def test_a_torque_on_the_sheave_is_found_there(turned):
 )
 def test_what_it_follows_is_told(request, hidden, follows):
     campaign, force = request.getfixturevalue(hidden)
-    assert f"it follows {follows}" in force.sentence() and force.estimates[0].location.name[2:] in force.sentence()
+    assert f"it correlates with {follows}" in force.sentence() and force.estimates[0].location.name[2:] in force.sentence()
     told = json.loads(json.dumps(plain(force.to_json()), allow_nan=False))
     assert [one["share"] for one in told] == sorted((one["share"] for one in told), reverse=True)
     assert told[0]["locked_to"] and {"place", "share", "size", "unit", "courses"} <= set(told[0])
     assert len(tables.force_table(force).rows) == len(told)
-    assert figures.force_bars(force).axes and len(figures.force_histories(campaign, force).axes) == 4
+
+
+def test_the_pictures_show_each_share_at_its_location_and_the_force_beside_the_car(pushed):
+    campaign, force = pushed
+    (bars,) = figures.force_bars(force).axes
+    names = {y: text.get_text() for y, text in zip(bars.get_yticks(), bars.get_yticklabels(), strict=True)}
+    shown = {names[bar.get_y() + 0.5 * bar.get_height()]: bar.get_width() for bar in bars.patches}
+    assert shown == pytest.approx({one.location.name: 100.0 * one.share for one in force.estimates})
+    assert names[max(names)] == force.estimates[0].location.name  # the best one on top
+    runs = campaign.of_role("fit")
+    panels = figures.force_histories(campaign, force).axes
+    assert len(panels) == 2 * len(runs) and {axes.get_title(loc="left") for axes in panels[: len(runs)]} == {run.file for run in runs}
+    for run, axes, beside in zip(runs, panels[: len(runs)], panels[len(runs) :], strict=True):
+        history = force.estimates[0].histories[run.file]
+        assert np.array_equal(axes.lines[0].get_xydata(), np.column_stack([history.time, history.value]))
+        assert np.allclose(beside.lines[0].get_ydata(), run.trip.position(history.time)) and "m" in axes.get_ylabel()
 
 
 def test_the_estimate_of_a_known_course():
@@ -171,9 +186,9 @@ def test_the_estimate_of_a_known_course():
     rows, plant = np.ones((1, n), bool), np.zeros((n, 1))
     right = deconvolve([response], plant, r, rows, fold)
     wrong = deconvolve([other], plant, r, rows, fold)
-    assert right.missed < 1.2 * n  # noise alone would leave n
-    assert np.corrcoef(right.histories[0], course)[0, 1] > 0.9
-    assert wrong.missed > 0.9 * float(r @ r)
+    assert right.held_out_chi_square < 1.2 * n  # noise alone would leave n
+    assert np.corrcoef(right.coefficients[0], course)[0, 1] > 0.9
+    assert wrong.held_out_chi_square > 0.9 * float(r @ r)
 
 
 def test_the_instrument_is_only_lent():

@@ -18,7 +18,8 @@ from .model_updating.stepwise_selection import select_stepwise
 from .prediction.parameter_point import ParameterPoint
 from .progress import ProgressCallback
 from .residuals.input_estimation import estimate_residual_force
-from .residuals.residual_correlation import residual_correlations, rest_ratio_of
+from .residuals.residual_correlation import residual_correlations
+from .residuals.residual_series import rest_ratio_of
 from .result.comparison import ComparisonResult
 from .result.diagnosis import DiagnosisResult
 from .result.updating import AddResult, ImproveResult

@@ -88,7 +88,7 @@ def _column(
     if k < len(PLANT_PARAMETERS) and PLANT_PARAMETERS[k].name == CLOCK:
         runs = {run.file: run for run in problem.runs}
         return problem.column({place: _delay_derivative(runs[place[0]], value) for place, value in at.items()})
-    if hypothesis and k >= len(PLANT_PARAMETERS) and hypothesis.faulty[k - len(PLANT_PARAMETERS)]:
+    if hypothesis and k >= len(PLANT_PARAMETERS) and hypothesis.instrument_directions[k - len(PLANT_PARAMETERS)]:
         return _instrument_column(problem, hypothesis.directions[k - len(PLANT_PARAMETERS)], here, at)
     return problem.column({(file, column): values for file, (_, by) in found.items() for column, values in by.get(k, {}).items()})
 

@@ -1,7 +1,7 @@
-"""What may be wrong with a model: plant parameters that are never exact, and effects that may be missing.
+"""Hypotheses: effects that may be missing from a model and instruments that may be at fault, as directions of a fit.
 
-A direction is a set of changes of the model, applied in proportion to one coefficient. Nuisance
-parameters are always refitted; each effect's directions come from its own declaration.
+The directions of an effect come from its declaration: each parameter whose neutral value is zero is an amplitude; an amplitude
+with a phase is fitted as a cosine and a sine.
 """
 
 from collections.abc import Mapping
@@ -19,11 +19,12 @@ from .plant_parameters import Direction
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
-    """One way in which an effect may act: its directions, and what stays fixed with it.
+    """One variant of an effect, or a combination of several effects.
 
-    `polar` is (amplitude, phase) where the two directions are its cosine and sine; `base` is the value without
-    the effect; `parts` are the hypotheses of several effects at once, whose directions stand one after the other.
-    `turned` are runs in which the phase is another: each has a direction more, its difference there.
+    `directions` are what is fitted and `fixed` the parameters that have given values. `polar` are the keys of amplitude and phase
+    if the first two directions are a cosine and a sine. `base` is the value of a parameter without the effect. `parts` are
+    the hypotheses of a combination, whose directions follow one another. `phase_runs` are the runs with a phase of their own:
+    each has one more direction, the difference of its phase.
     """
 
     effect: str
@@ -35,7 +36,7 @@ class Hypothesis:
     phase_runs: tuple[str, ...] = ()
 
     def split_coefficients(self, coefficients: list[float]) -> list[tuple["Hypothesis", list[float]]]:
-        """Each effect with its own coefficients."""
+        """Each part of a combination with its own coefficients."""
         found, at = [], 0
         for part in self.parts or (self,):
             found.append((part, coefficients[at : at + len(part.directions)]))
@@ -44,16 +45,16 @@ class Hypothesis:
 
     @property
     def is_instrument(self) -> bool:
-        """Whether this is a fault of an instrument, not of the rope."""
+        """Whether this is a fault of an instrument."""
         return self.effect in INSTRUMENT
 
     @property
-    def faulty(self) -> list[bool]:
-        """Which directions are faults of instruments."""
+    def instrument_directions(self) -> list[bool]:
+        """Which directions belong to faults of instruments."""
         return [part.is_instrument for part in self.parts or (self,) for _ in part.directions]
 
     def shifts(self, coefficients: list[float]) -> dict[str, dict[str, float]]:
-        """What is added to values in single runs, by the run's file."""
+        """What is added to parameters in single runs: by the run's file and the model key."""
         found: dict[str, dict[str, float]] = {}
         for part, own in self.split_coefficients(coefficients):
             for file, shift in zip(part.phase_runs, own[2:], strict=False):
@@ -62,7 +63,7 @@ class Hypothesis:
         return found
 
     def parameters(self, coefficients: list[float]) -> dict[str, float]:
-        """Values of model keys for coefficients of the directions."""
+        """Parameters by model key for coefficients of the directions."""
         if self.parts:
             return {
                 key: value for part, own in self.split_coefficients(coefficients) for key, value in part.parameters(own).items()
@@ -78,12 +79,12 @@ class Hypothesis:
 
 
 def effect_hypotheses(model: RopeModel, frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
-    """All hypotheses about effects that the model may have; `frequencies` [Hz] are tried where an effect has one."""
+    """All variants of all effects that the model may have; `frequencies` [Hz] are those of oscillating effects."""
     return [one for name in names_of(model) for one in hypotheses_of_effect(REGISTRY[name], frequencies)]
 
 
 def hypotheses_of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypothesis]:
-    """One hypothesis for each combination of the values to try."""
+    """Variants of an effect: one for each combination of the values of its shape parameters that are tried."""
     tried = dict(effect.probes)
     declared = {one.name: one for one in quantities(effect)}
     if "frequency" in declared:
@@ -99,7 +100,7 @@ def hypotheses_of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -
 
 
 def combine(*effects: Hypothesis) -> Hypothesis:
-    """All these effects at once."""
+    """Combination of several effects."""
     parts = tuple(part for one in effects for part in one.parts or (one,))
     if len(parts) == 1:
         return parts[0]
@@ -108,11 +109,11 @@ def combine(*effects: Hypothesis) -> Hypothesis:
 
 
 def instrument_hypotheses(channels: Mapping[str, Channel]) -> list[Hypothesis]:
-    """One hypothesis for each fault of each channel; an offset shows only where the channel is absolute."""
+    """One hypothesis for each fault of each channel; an offset has an effect on absolute channels only."""
     found = []
     for column, channel in channels.items():
         noise = channel.scale * (channel.noise or HYPOTHESES.assumed_noise)
-        # A wrong sign or unit is a gain too.
+        # A wrong sign or unit is a gain error too.
         found.append(_fault("sensor_gain", column, HYPOTHESES.gain_unit, HYPOTHESES.gain_prior, 1.0))
         found.append(_fault("sensor_delay", column, HYPOTHESES.delay_unit, HYPOTHESES.delay_prior, 0.0))
         found.append(_fault("sensor_drift", column, noise / HYPOTHESES.drift_time, HYPOTHESES.drift_prior, 0.0))
@@ -122,23 +123,26 @@ def instrument_hypotheses(channels: Mapping[str, Channel]) -> list[Hypothesis]:
 
 
 def _fault(effect: str, column: str, size: float, prior: float, base: float) -> Hypothesis:
+    """Fault of the instrument of one channel: `size` per unit of the coefficient, `base` without the fault."""
     key = f"effects.{effect}.{column}"
     return Hypothesis(effect, (Direction(key, {key: size}, prior),), base=base)
 
 
 def _is_amplitude(one: Quantity, effect: type[Effect]) -> bool:
+    """Whether a parameter is zero without the effect, and no phase."""
     phase = effect.polar is not None and one.name == effect.polar[1]
     return one.neutral == 0.0 and not phase
 
 
 def _direction(effect: type[Effect], one: Quantity, probe: float | None) -> Direction:
-    """The amplitude as a coefficient of its typical value; of a value to try it may stray by a factor of three."""
+    """Direction of an amplitude in units of its typical value, or of the value that is tried, whose sign it then keeps."""
     key, size = f"effects.{effect.name}.{one.name}", probe if probe is not None else one.nominal
     lower, upper = sorted((one.minimum / size, one.maximum / size))
     return Direction(key, {key: size}, HYPOTHESES.amplitude_prior, max(lower, 0.0) if probe is not None else lower, upper)
 
 
 def _assembled(effect: type[Effect], directions: tuple[Direction, ...], fixed: dict[str, float]) -> Hypothesis:
+    """Hypothesis of an effect; an amplitude with a phase becomes a cosine and a sine."""
     if effect.polar is None:
         return Hypothesis(effect.name, directions, fixed)
     amplitude, phase = (f"effects.{effect.name}.{name}" for name in effect.polar)

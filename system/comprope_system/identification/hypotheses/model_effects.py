@@ -1,4 +1,4 @@
-"""Effects that a model file has already, as hypotheses that can be fitted again; and what else of an effect to fit."""
+"""Effects that a model file contains, as hypotheses that can be fitted again; shape parameters and names of effects."""
 
 from collections.abc import Mapping, Sequence
 from math import cos, isfinite, log, sin
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 
 
 def effect_values(model: RopeModel) -> dict[str, float]:
-    """Every parameter of the model's effects, instruments' faults included, by its key in the model file."""
+    """Parameters of the model's effects and of faults of instruments, by model key."""
     found = {key: value for key, value in values_of(model).items() if key.startswith("effects.")}
     for name in INSTRUMENT:
         table: Mapping[str, float] = getattr(model.effects, name) or {}
@@ -31,7 +31,7 @@ def effect_values(model: RopeModel) -> dict[str, float]:
 
 
 def effects_in_model(campaign: Campaign) -> tuple[Hypothesis | None, Floats]:
-    """All effects of the campaign's model as one hypothesis, None if it has none, and their coefficients."""
+    """All effects of the campaign's model as one hypothesis, None if it has none, and their coefficients (k,)."""
     values = effect_values(campaign.model)
     names = sorted(
         {key.split(".")[1] for key in values},
@@ -42,7 +42,7 @@ def effects_in_model(campaign: Campaign) -> tuple[Hypothesis | None, Floats]:
 
 
 def combined_or_none(parts: Sequence[Hypothesis]) -> Hypothesis | None:
-    """Several effects as one hypothesis, in this order; where two set the same value the later one does."""
+    """Combination of several effects in this order, None for none; of two that set a parameter the later one applies."""
     return combine(*parts) if parts else None
 
 
@@ -61,14 +61,14 @@ def _as_hypotheses(
 
 
 def _at(one: Hypothesis, own: Mapping[str, float]) -> Hypothesis:
-    """The hypothesis with everything but its amplitudes as the model has it."""
+    """The hypothesis with all parameters but its amplitudes as in the model."""
     moved = {key for direction in one.directions for key in direction.changes}
     fixed = {key: value for key, value in own.items() if key not in moved}
     return Hypothesis(one.effect, one.directions, fixed, one.polar, one.base)
 
 
 def coefficients_of(one: Hypothesis, values: Mapping[str, float]) -> list[float]:
-    """The coefficients at which an effect has these values."""
+    """Coefficients at which an effect has these parameters."""
     if one.polar:
         size, phase = (values[key] for key in one.polar)
         share = size / one.directions[0].changes[one.polar[0]]
@@ -77,7 +77,7 @@ def coefficients_of(one: Hypothesis, values: Mapping[str, float]) -> list[float]
 
 
 def _distance_from_typical(found: tuple[Hypothesis, list[float]]) -> float:
-    """How far coefficients are from typical ones, infinitely where they are out of bounds."""
+    """Sum of the logarithms by which coefficients differ from typical values; 1e300 if one is out of bounds."""
     total = 0.0
     for direction, c in zip(found[0].directions, found[1], strict=True):
         total += abs(log(max(abs(c), 1e-9))) if direction.lower <= c <= direction.upper else float("inf")
@@ -85,9 +85,9 @@ def _distance_from_typical(found: tuple[Hypothesis, list[float]]) -> float:
 
 
 def shape_hypothesis(one: Hypothesis, longest: float) -> Hypothesis | None:
-    """What else of an effect can be fitted once its amplitude is known: a frequency, a yield curvature; None if nothing.
+    """Shape parameter of an effect as a hypothesis, a frequency or a yield curvature; None if it has none.
 
-    `longest` is the duration [s] of the longest run, which tells how sharply a frequency shows.
+    `longest` is the duration [s] of the longest run, which determines the resolution of a frequency.
     """
     if one.effect not in REGISTRY:
         return None
@@ -111,13 +111,13 @@ def shape_hypothesis(one: Hypothesis, longest: float) -> Hypothesis | None:
 
 
 def shape_hypotheses(parts: Sequence[Hypothesis], longest: float) -> list[Hypothesis]:
-    """What else can be fitted of those effects whose shape is not free already, as a part of its own."""
+    """Shape parameters of those effects whose shape is not fitted already, one hypothesis for each."""
     names = [part.effect for part in parts]
     return [shape for part in parts if names.count(part.effect) == 1 and (shape := shape_hypothesis(part, longest))]
 
 
 def require_effects(names: Sequence[str]) -> None:
-    """Raise InputError, for all at once, if some of the names are no effects."""
+    """Raise `InputError`, for all names together, if some are not names of effects."""
     known = [*REGISTRY, *INSTRUMENT]
     problems = [f"{name}: not an effect; {suggestion(name, known)}" for name in names if name not in known]
     if problems:
@@ -125,9 +125,9 @@ def require_effects(names: Sequence[str]) -> None:
 
 
 def hypotheses_named(effect: str, campaign: Campaign, frequencies: tuple[float, ...]) -> list[Hypothesis]:
-    """The ways in which a named effect may act; an instrument's fault on every channel, or on one: `sensor_gain.cw_low`.
+    """Variants of a named effect; of an instrument's fault for every channel or for one, as in `sensor_gain.cw_low`.
 
-    Raises InputError for another name.
+    Raises `InputError` for an unknown name.
     """
     name, _, column = effect.partition(".")
     known = [*REGISTRY, *INSTRUMENT]
@@ -144,14 +144,14 @@ def hypotheses_named(effect: str, campaign: Campaign, frequencies: tuple[float, 
 
 
 def effect_name(part: Hypothesis) -> str:
-    """The effect's name; of an instrument's fault with its channel."""
+    """Name of an effect; of an instrument's fault with its channel."""
     return part.directions[0].name.removeprefix("effects.") if part.is_instrument else part.effect
 
 
 def components_by_effect(
     hypothesis: Hypothesis | None, coefficients: Sequence[float]
 ) -> dict[str, list[tuple[Hypothesis, list[float]]]]:
-    """The parts of a hypothesis with their coefficients, by the name of the effect they belong to."""
+    """Parts of a hypothesis with their coefficients, by the name of the effect."""
     found: dict[str, list[tuple[Hypothesis, list[float]]]] = {}
     for part, own in hypothesis.split_coefficients(list(coefficients)) if hypothesis else []:
         found.setdefault(effect_name(part), []).append((part, own))
@@ -159,6 +159,6 @@ def components_by_effect(
 
 
 def short_names(effect: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Parameters of one effect by their short names."""
+    """Parameters of one effect by their names without the prefix `effects.NAME.`."""
     prefix = f"effects.{effect.split('.')[0]}."
     return {key.removeprefix(prefix): value for key, value in values.items() if key.startswith(prefix)}

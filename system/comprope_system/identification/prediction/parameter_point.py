@@ -1,4 +1,4 @@
-"""A point in the space of what is fitted, and the model's predictions there."""
+"""Points in the space of fitted parameters, and the predictions of runs there."""
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor, Future
@@ -24,9 +24,9 @@ Predictions = dict[tuple[str, str], Floats]
 
 @dataclass(frozen=True)
 class ParameterPoint:
-    """Nuisance coefficients by name (0: as the model file has it), and model keys that effects set.
+    """Coefficients of plant parameters by name (0: as in the model file), and parameters of effects by model key.
 
-    `shifts` are added to such keys in single runs, by the run's file.
+    `shifts` are added to parameters of effects in single runs, by the run's file.
     """
 
     plant: Mapping[str, float] = field(default_factory=dict)
@@ -34,19 +34,19 @@ class ParameterPoint:
     shifts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def changes(self, model: RopeModel, run: Run) -> dict[str, Any]:
-        """Everything that differs from the model file in a run at this point."""
+        """Parameters that differ from the model file in a run at this point, by model key."""
         base = values_of(model) | {key: value for key, value in run.changes.items() if isinstance(value, (int, float))}
         changed: dict[str, Any] = dict(run.changes) | dict(self.effects)
         for key, shift in self.shifts.get(run.file, {}).items():
             changed[key] = changed.get(key, base.get(key, 0.0)) + shift
-        if late := self.plant.get(CLOCK, 0.0):
+        if offset := self.plant.get(CLOCK, 0.0):
             known = model.effects.sensor_delay or {}
             keys = {f"effects.sensor_delay.{column}": known.get(column, 0.0) for column in run.values}
-            changed |= {key: changed.get(key, delay) + late for key, delay in keys.items()}
+            changed |= {key: changed.get(key, delay) + offset for key, delay in keys.items()}
         for one in PLANT_PARAMETERS:
             if (coefficient := self.plant.get(one.name, 0.0)) and one.changes:
                 value = base[one.name] * exp(coefficient) if one.relative else base[one.name] + coefficient
-                # A fit may lean on a parameter that it cannot see; it must not leave what a model accepts.
+                # A fit may drive a parameter without influence to its bounds; the model must still accept it.
                 changed[one.name] = min(max(value, DECLARED[one.name].minimum), DECLARED[one.name].maximum)
         return changed
 
@@ -54,22 +54,22 @@ class ParameterPoint:
 def submit_replays(
     campaign: Campaign, runs: Sequence[Run], point: ParameterPoint, executor: Executor, coarse: float = 1.0
 ) -> list[Future[dict[str, Floats]]]:
-    """Start the replays of some runs at a point, with elements and steps `coarse` times as long."""
+    """Start the replays of some runs at a point, with elements and time steps `coarse` times as long."""
     there = [run_at_point(campaign.model, run, point, coarse) for run in runs]
     return [executor.submit(predict, campaign.model, run, campaign.channels, coarse * REPLAY.time_step) for run in there]
 
 
 def run_at_point(model: RopeModel, run: Run, point: ParameterPoint, coarse: float = 1.0) -> Run:
-    """The run with all that differs from the model file at a point, with elements `coarse` times as long."""
+    """The run with the changes of a point, and with elements `coarse` times as long."""
     length = {"rope.element_length": coarse * model.rope.element_length} if coarse != 1.0 else {}
     return replace(run, changes=point.changes(model, run) | length)
 
 
 def predict(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: float) -> dict[str, Floats]:
-    """Channels of one run as the model has them."""
+    """Simulated channels (n,) [SI] of one run, by column."""
     return replay(model, run, channels, step).values
 
 
 def collect_predictions(runs: Sequence[Run], jobs: Sequence[Future[dict[str, Floats]]]) -> Predictions:
-    """Predictions of runs by (file, column)."""
+    """Predictions of runs by (file, column), when their replays are done."""
     return {(run.file, column): value for run, job in zip(runs, jobs, strict=True) for column, value in job.result().items()}

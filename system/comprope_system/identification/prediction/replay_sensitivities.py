@@ -1,4 +1,4 @@
-"""The model driven by a measured run, with the derivative of every channel along directions of its parameters."""
+"""Replay of a measured run with the derivatives of every channel along directions in the space of parameters."""
 
 from collections.abc import Mapping
 
@@ -14,7 +14,7 @@ from comprope.rope.simulator.sensitive_rope import SensitiveRope
 
 from ..data.campaign import Channel, Run
 from ..settings import REPLAY
-from .replay import Floats, Replay, _paths, instrument, relative_to_rest
+from .replay import Floats, Replay, end_motion, instrument, output_times, relative_to_rest
 
 FORCES = ("force", "tension")
 
@@ -29,77 +29,77 @@ def replay_with_sensitivities(
     *,
     exact: bool | None = None,
 ) -> tuple[Replay, dict[str, dict[str, Floats]]]:
-    """What `replay` gives, and for each direction the derivative of each channel at the run's sample times.
+    """Replay of a run, and for each direction the derivative of each channel (n,) at the run's sample times.
 
-    A direction maps keys of the model to amounts, `{"rope.bending_stiffness": 1.0}`; its derivative is in the channel's SI
-    unit per one times these amounts, which add to what the run itself has changed. `at` sets values that do nothing before the
-    direction does, and `exact` spends more on accuracy (see `SensitiveRope`), by default where effects need it. Derivatives
-    count from rest where the channel does, and are NaN where the rope is not in view. Raises `SimulationError` where the run or
-    a derivative fails.
+    A direction maps model keys to amounts, `{"rope.bending_stiffness": 1.0}`; its derivative is in the channel's SI unit per
+    unit of a coefficient of these amounts, which add to the run's own changes. `at` sets, by direction, parameters without
+    influence at the point itself, as the frequency of a sway of zero amplitude; `exact` chooses the more accurate derivatives of
+    `SensitiveRope`, by default where effects need them. Derivatives are relative to rest where the channel is, and NaN where the
+    rope is out of view. Raises `SimulationError` where the run or a derivative fails.
     """
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
-    rope = SensitiveRope(changed, directions, at, exact=_sticking(values_of(changed)) if exact is None else exact)
-    grid = run.time[0] + REPLAY.output_interval * np.arange(
-        int(np.ceil((run.time[-1] - run.time[0]) / REPLAY.output_interval)) + 2
-    )
-    seen, hidden = _drive(rope, run, grid, channels)
-    if not all(np.abs(one).max() < REPLAY.derivative_limit for one in seen.values()):
-        raise SimulationError(f"{run.file}: derivatives along the run grew beyond all numbers")
-    sampled = {column: CubicSpline(grid, seen[column])(run.time) for column in channels}
+    rope = SensitiveRope(changed, directions, at, exact=_has_history(values_of(changed)) if exact is None else exact)
+    grid = output_times(run)
+    found, hidden = _simulated_channels(rope, run, grid, channels)
+    if not all(np.abs(one).max() < REPLAY.derivative_limit for one in found.values()):
+        raise SimulationError(f"{run.file}: derivatives along the run diverged")
+    sampled = {column: CubicSpline(grid, found[column])(run.time) for column in channels}
     for column, values in sampled.items():
         values[np.interp(run.time, grid, hidden[column]) > 0.0] = np.nan
     shown = {column: instrument(changed, column, run.time, values[:, 0]) for column, values in sampled.items()}
     derivatives = {name: {column: values[:, k] for column, values in sampled.items()} for k, name in enumerate(rope.names, 1)}
     count = rope.rope.count
     return Replay(relative_to_rest(shown, run, channels), count["newton"], count["halved"]), {
-        name: relative_to_rest({column: _through(changed, column, run, one) for column, one in own.items()}, run, channels)
+        name: relative_to_rest(
+            {column: _instrument_derivative(changed, column, run, one) for column, one in own.items()}, run, channels
+        )
         for name, own in derivatives.items()
     }
 
 
-def _sticking(values: Mapping[str, float]) -> bool:
-    """Whether a model of these values has effects with a history, which need `exact` derivatives.
+def _has_history(values: Mapping[str, float]) -> bool:
+    """Whether a model with these parameters has effects with state variables, which need `exact` derivatives.
 
-    Wires that stick and slip change the rope's stiffness within a step: with the older factor derivatives may grow without end.
+    Hysteresis changes the stiffness within a time step; with the factor of an earlier iteration derivatives may diverge.
     """
     return any(REGISTRY[key.split(".")[1]].states for key in values if key.startswith("effects."))
 
 
-def _through(model: RopeModel, column: str, run: Run, derivative: Floats) -> Floats:
-    """What a channel's instrument makes of a derivative: all but its offset."""
+def _instrument_derivative(model: RopeModel, column: str, run: Run, derivative: Floats) -> Floats:
+    """Derivative (n,) of a channel as its instrument shows it: the offset has none."""
     return instrument(model, column, run.time, derivative) - instrument(model, column, run.time, np.zeros_like(derivative))
 
 
-def _drive(
+def _simulated_channels(
     rope: SensitiveRope, run: Run, grid: Floats, channels: Mapping[str, Channel]
 ) -> tuple[dict[str, Floats], dict[str, Floats]]:
     """Each channel and its derivatives (times, 1 + directions) on the grid, and where it is out of view (times,)."""
-    paths = _paths(rope.rope.model, run, grid)
-    rope.solve_equilibrium(-paths[0, 0, 0], -paths[0, 2, 0], time=float(grid[0]))
-    seen = {column: np.zeros((len(grid), 1 + len(rope.names))) for column in channels}
+    motion = end_motion(rope.rope.model, run, grid)
+    rope.solve_equilibrium(-motion[0, 0, 0], -motion[0, 2, 0], time=float(grid[0]))
+    found = {column: np.zeros((len(grid), 1 + len(rope.names))) for column in channels}
     hidden = {column: np.zeros(len(grid)) for column in channels}
-    looked = np.zeros((len(grid), len(rope.rope.model.sensors), 2 + len(rope.names)))
-    lasers = {column: _number(rope, one) for column, one in channels.items() if one.quantity == "lateral_displacement"}
-    others = {column: one.quantity for column, one in channels.items() if column not in lasers}
+    readings = np.zeros((len(grid), len(rope.rope.model.sensors), 2 + len(rope.names)))
+    sensors = {column: _sensor_number(rope, one) for column, one in channels.items() if one.quantity == "lateral_displacement"}
+    others = {column: one.quantity for column, one in channels.items() if column not in sensors}
     for k in range(len(grid)):
         if k:
-            rope.step(REPLAY.output_interval, np.concatenate([paths[k - 1], paths[k]], axis=1).ravel())
-        if lasers:
-            looked[k] = rope.read_sensors()
+            rope.step(REPLAY.output_interval, np.concatenate([motion[k - 1], motion[k]], axis=1).ravel())
+        if sensors:
+            readings[k] = rope.read_sensors()
         if others:
-            _note(rope, others, {column: values[k] for column, values in seen.items()})
-    for column, j in lasers.items():
-        seen[column][:, 0], hidden[column], seen[column][:, 1:] = looked[:, j, 0], 1.0 - looked[:, j, 1], looked[:, j, 2:]
-    return seen, hidden
+            _record_sheave_channels(rope, others, {column: values[k] for column, values in found.items()})
+    for column, j in sensors.items():
+        found[column][:, 0], hidden[column], found[column][:, 1:] = readings[:, j, 0], 1.0 - readings[:, j, 1], readings[:, j, 2:]
+    return found, hidden
 
 
-def _number(rope: SensitiveRope, channel: Channel) -> int:
-    """Number of the sensor that a channel reads."""
+def _sensor_number(rope: SensitiveRope, channel: Channel) -> int:
+    """Number of a channel's sensor in the model."""
     return [one.name for one in rope.rope.model.sensors].index(str(channel.sensor))
 
 
-def _note(rope: SensitiveRope, others: Mapping[str, str], rows: Mapping[str, Floats]) -> None:
-    """Note what channels other than lasers show now: for each the value, then its derivatives."""
+def _record_sheave_channels(rope: SensitiveRope, others: Mapping[str, str], rows: Mapping[str, Floats]) -> None:
+    """Write the value and derivatives (1 + directions,) of channels other than sensors into `rows`."""
     forced = any(quantity.endswith(FORCES) for quantity in others.values())
     values = rope.rope.outputs() if forced else rope.rope.sheave()
     forces = rope.forces() if forced else {}

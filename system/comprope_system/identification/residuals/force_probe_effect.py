@@ -1,7 +1,7 @@
-"""An instrument of the diagnosis, in the form of a user's own effect: a pulse of force or motion at a place and a time.
+"""Probe of the input estimation, in the form of a user's effect: a pulse of force or motion at a location and a time.
 
-The pulse is a cubic B-spline B((t - time) / width) of support 4 width; such pulses a width apart sum to one. A push from the
-shaft acts on a side of the rope over a hat of heights, and only above the sheave's axle.
+The pulse is a cubic B-spline B((t - time) / width) of support 4 width; such pulses a width apart sum to one. A lateral force
+from the shaft acts on a side of the rope with a triangular distribution over height, and only above the sheave's axle.
 """
 
 from math import copysign
@@ -12,7 +12,7 @@ MOST = 1e9
 
 
 class ResidualForce(Effect):
-    """Whatever the model leaves out, as a pulse of it."""
+    """Force or motion that is missing from the model, as a pulse."""
 
     name = "residual_force"
     sheave_force: float = quantity("N", "upward force on the sheave", -MOST, MOST, default=0.0, nominal=1.0)
@@ -25,9 +25,9 @@ class ResidualForce(Effect):
     counterweight_end_out: float = quantity("m", "the same under the counterweight", -MOST, MOST, default=0.0, nominal=1.0)
     car_end_up: float = quantity("m", "upward motion of the end under the car", -MOST, MOST, default=0.0, nominal=1.0)
     counterweight_end_up: float = quantity("m", "the same under the counterweight", -MOST, MOST, default=0.0, nominal=1.0)
-    height: float = quantity("m", "height at which a push is largest", -MOST, MOST, default=0.0, nominal=20.0)
-    reach: float = quantity("m", "how far above and below it has faded", 0.01, MOST, default=1.0, nominal=20.0)
-    time: float = quantity("s", "when the pulse is largest", -MOST, MOST, default=0.0, nominal=0.0)
+    height: float = quantity("m", "height at which a lateral force is largest", -MOST, MOST, default=0.0, nominal=20.0)
+    reach: float = quantity("m", "distance above and below at which it is zero", 0.01, MOST, default=1.0, nominal=20.0)
+    time: float = quantity("s", "time of the pulse's maximum", -MOST, MOST, default=0.0, nominal=0.0)
     width: float = quantity("s", "a quarter of the pulse's length", 1e-3, MOST, default=1.0, nominal=1.0)
 
 
@@ -60,8 +60,8 @@ def pulse(p, t):
 
 
 @kernel
-def push(n, t, p, q, v, w, f):
-    """Add the pulse's forces on sheave and rope; a node carries half of each element beside it."""
+def add_forces(n, t, p, q, v, w, f):
+    """Add the pulse's forces on sheave and rope, and return their power; a node carries half of each adjacent element."""
     m, size, power = n + 1, pulse(p, t)[0], 0.0
     if size == 0.0:
         return 0.0
@@ -81,12 +81,12 @@ def push(n, t, p, q, v, w, f):
 
 
 @kernel
-def unheard(n, t, p, q, v, w, A, weights):
-    """No tangents: a pulse is only ever differentiated where it is not yet."""
+def no_tangents(n, t, p, q, v, w, A, weights):
+    """No tangents: derivatives by the pulse are taken at zero size, where its own derivatives by the state vanish."""
 
 
 @kernel
-def guide(n, t, p, q, v, a):
+def move_ends(n, t, p, q, v, a):
     """Add the pulse's motion to both ends."""
     m = n + 1
     y, rate, bow = pulse(p, t)
@@ -98,4 +98,4 @@ def guide(n, t, p, q, v, a):
         a[k] += by * bow
 
 
-acts(ResidualForce, forces=push, tangents=unheard, ends=guide)
+acts(ResidualForce, forces=add_forces, tangents=no_tangents, ends=move_ends)
