@@ -152,7 +152,7 @@ def test_a_torque_on_the_sheave_is_found_there(turned):
     [("pushed", "the car's position"), pytest.param("lagging", "the car's acceleration", marks=pytest.mark.slow)],
 )
 def test_what_it_follows_is_told(request, hidden, follows):
-    campaign, force = request.getfixturevalue(hidden)
+    _, force = request.getfixturevalue(hidden)
     assert f"it correlates with {follows}" in force.sentence() and force.estimates[0].location.name[2:] in force.sentence()
     told = json.loads(json.dumps(plain(force.to_json()), allow_nan=False))
     assert [one["share"] for one in told] == sorted((one["share"] for one in told), reverse=True)
@@ -169,7 +169,8 @@ def test_the_pictures_show_each_share_at_its_location_and_the_force_beside_the_c
     assert names[max(names)] == force.estimates[0].location.name  # the best one on top
     runs = campaign.of_role("fit")
     panels = figures.force_histories(campaign, force).axes
-    assert len(panels) == 2 * len(runs) and {axes.get_title(loc="left") for axes in panels[: len(runs)]} == {run.file for run in runs}
+    assert len(panels) == 2 * len(runs)
+    assert [axes.get_title(loc="left") for axes in panels[: len(runs)]] == [run.file for run in runs]
     for run, axes, beside in zip(runs, panels[: len(runs)], panels[len(runs) :], strict=True):
         history = force.estimates[0].histories[run.file]
         assert np.array_equal(axes.lines[0].get_xydata(), np.column_stack([history.time, history.value]))

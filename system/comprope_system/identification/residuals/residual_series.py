@@ -1,4 +1,4 @@
-"""Residuals of channels, and estimated forces, as series over coordinates: time, motion of the car, sheave angle, rope position."""
+"""Residuals of channels, and estimated forces, as series over coordinates: time, motion of car and sheave, rope position."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
