@@ -12,9 +12,12 @@ from comprope_system.identification.settings import GROUPS, settings_of
 ROOT = Path(identification.__file__).parent
 ALLOWED = {
     ("residuals/force_probe_effect.py", "MOST"),  # bound of a declared quantity, in a file that stands alone as a user's effect
-    ("reporting/formatting.py", "WIDTH"),  # layout of printed text
-    ("reporting/formatting.py", "NOTHING"),  # layout of printed text: shown as zero
-    ("reporting/tables.py", "SHOWN"),  # layout of printed text: rows of a short table
+    # The layout of printed text and pages:
+    ("reporting/formatting.py", "WIDTH"),
+    ("reporting/formatting.py", "ZERO"),
+    ("reporting/tables.py", "SHOWN"),
+    ("reporting/diagnosis_page.py", "RUNS_SHOWN"),
+    ("result/diagnosis.py", "RUNS"),
 }
 
 

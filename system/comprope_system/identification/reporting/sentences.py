@@ -7,11 +7,8 @@ from ..diagnosis.diagnose import Diagnosis
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, full_name, implausible_parameters, ranking, reduced_chi_square
 from ..model_updating.add_effect import UpdatedModel
 from ..model_updating.stepwise_selection import StepwiseSelection
-from ..settings import COMPARISON
+from ..settings import COMPARISON, VERDICT
 from .formatting import number, percent, probability
-
-UNEXPLAINED = 1.5  # reduced chi-square from which a verdict is followed by a remark that more may be missing
-LIKELY = 0.02  # probability above which an indistinguishable effect is named
 
 
 def comparison_sentences(one: Comparison) -> list[str]:
@@ -53,7 +50,11 @@ def _missing_effect(validated: ValidatedDiagnosis) -> str:
     names = " and ".join([full_name(found.ranking[0].hypothesis), *others])
     kind = "Faulty instrument" if found.kind == "instrument" else "Missing effect"
     left = reduced_chi_square(validated, found.ranking[0])
-    rest = "" if left < UNEXPLAINED else f" Reduced chi-square with it {number(left)}: another effect may be missing."
+    rest = (
+        ""
+        if left < VERDICT.incomplete_chi_square
+        else f" Reduced chi-square with it {number(left)}: another effect may be missing."
+    )
     return (
         f"{kind}: {names}, probability {probability(top['probability'])}. With it the NRMSE decreases from "
         f"{percent(top['error_before'])} to {percent(top['error_after'])} on the fit runs and from "
@@ -74,7 +75,7 @@ def _implausible(found: Diagnosis) -> list[str]:
 
 def _indistinguishable(found: Diagnosis) -> list[str]:
     others = sorted({a if b == found.verdict else b for a, b in found.indistinguishable if found.verdict in (a, b)})
-    likely = [name for name in others if found.probabilities.get(name, 0.0) > LIKELY]
+    likely = [name for name in others if found.probabilities.get(name, 0.0) > VERDICT.likely_probability]
     return [f"These data hardly distinguish it from {', '.join(likely)}."] if likely else []
 
 

@@ -79,6 +79,12 @@ class Verdict:
         1.06, "1", "largest reduced chi-square that it is assumed to leave", "elevator of the tests, correct effect with 1.08"
     )
     unknown_prior_cost: float = setting(5.0, "1", "largest prior cost of the plant that it is charged with", JUDGEMENT)
+    incomplete_chi_square: float = setting(
+        1.5, "1", "reduced chi-square of the verdict's fit above which more may be missing, as is then reported", JUDGEMENT
+    )
+    likely_probability: float = setting(
+        0.02, "1", "probability above which an effect indistinguishable from the verdict is reported", JUDGEMENT
+    )
     detection_increase: float = setting(0.3, "1", "increase of reduced chi-square at the detection limit of an effect", JUDGEMENT)
     implausible_deviation: float = setting(
         4.0, "prior standard deviations", "deviation of a plant parameter that is reported as implausible", JUDGEMENT
