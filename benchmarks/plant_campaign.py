@@ -15,7 +15,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
-from plant.campaign import Plan, drawn, random_plan, write
+from plant.campaign import Plan, draw_plan, random_plan, write
 from plant.causes import CAUSES
 from plant.sites import SITES, TOWER50
 
@@ -45,7 +45,7 @@ def main() -> None:
             for line in executor.map(made, plans, folders):
                 print(line, flush=True)
     else:
-        plan = drawn(chosen.seed, tuple(chosen.cause or ["nothing"]), chosen.level, site)
+        plan = draw_plan(chosen.seed, tuple(chosen.cause or ["nothing"]), chosen.level, site)
         plan = replace(plan, before=chosen.before)
         print(made(plan if chosen.size is None else sized(plan, chosen.size), chosen.out))
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from plant.campaign import Plan, measured, planted, write
+from plant.campaign import Plan, measured, simulate_run, write
 from plant.faults import Rows
 from plant.sites import SITES, Site
 
@@ -52,7 +52,7 @@ def checked(site: Site) -> None:
 def driven(plan: Plan, run: Run) -> tuple[Rows, float]:
     """What the plant's channels are, without noise, and the processor time it takes."""
     began = time.process_time()
-    true, car = planted(plan, Path(run.file).stem, plan.causes)
+    true, car = simulate_run(plan, Path(run.file).stem, plan.causes)
     return measured(plan, true, car, plan.causes), time.process_time() - began
 
 

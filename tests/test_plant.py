@@ -20,7 +20,7 @@ import score_campaigns
 from plant import campaign as plants
 from plant import campaign_files
 from plant.causes import CAUSES
-from plant.simulate import course, ride
+from plant.simulate import excitation_of_trip, simulate
 from plant.sites import SITES, TOWER50, Run
 from plant.tower import Tower
 from plant.trip import trip
@@ -33,7 +33,7 @@ FILES = [name for name, cause in CAUSES.items() if cause.kind == "data"]
 
 
 def rows(plan, causes):
-    return plants.measured(plan, *plants.planted(plan, "up_short", causes), causes)
+    return plants.measured(plan, *plants.simulate_run(plan, "up_short", causes), causes)
 
 
 @pytest.fixture(scope="module")
@@ -49,16 +49,16 @@ def plain():
 
 
 def small(name):
-    return replace(plants.drawn(7, (name,), 1.0, LOW), plant=SMALL)
+    return replace(plants.draw_plan(7, (name,), 1.0, LOW), plant=SMALL)
 
 
 def test_without_causes_it_agrees_with_the_library(tmp_path):
     site = replace(LOW, runs={"up_nominal": LOW.runs["up_nominal"]})
-    plan = replace(plants.drawn(1, ("nothing",), site=site), plant={"element": 0.02})
+    plan = replace(plants.draw_plan(1, ("nothing",), site=site), plant={"element": 0.02})
     plants.write(plan, tmp_path)
     measured = load_campaign(tmp_path)
     run = measured.runs[0]
-    true, _ = plants.planted(plan, "up_nominal", {})
+    true, _ = plants.simulate_run(plan, "up_nominal", {})
     found = replay(measured.model, run, measured.channels).values
     for name in ("cw_low", "cw_mid", "car_low"):
         apart = (found[name] - np.nanmean(found[name][:300])) - (true[name] - true[name][:300].mean())
@@ -69,7 +69,7 @@ def test_without_causes_it_agrees_with_the_library(tmp_path):
 
 def test_at_rest_it_carries_what_hangs_on_it():
     p = Tower()
-    true = ride(p, course(p, np.zeros(3), np.array([[5.0, 0.0, 0.0]] * 3)), {}, 2)
+    true = simulate(p, excitation_of_trip(p, np.zeros(3), np.array([[5.0, 0.0, 0.0]] * 3)), {}, 2)
     weight = p.mass_per_length * 9.81
     ends = true["car_tension"][0] + true["counterweight_tension"][0]
     assert true["force"][0] == pytest.approx(p.sheave_mass * 9.81, rel=1e-6)
@@ -203,7 +203,7 @@ def test_a_site_can_be_measured(site, tmp_path):
         ends = {-1.0: motion[0, 0], 1.0: site.tower.height - motion[0, 0]}
         assert all(height < ends[side] for side, height in site.sensors.values())  # in view at rest
     for name, cause in CAUSES.items():
-        plan = plants.drawn(1, (name,), site=site)
+        plan = plants.draw_plan(1, (name,), site=site)
         assert (plan.column in site.channels) if cause.channel else plan.column is None
 
 
@@ -221,7 +221,7 @@ def test_the_office_building_agrees_with_the_library(tmp_path):
 
 
 def test_heights_of_causes_go_with_the_shaft():
-    low, high = (plants.drawn(1, ("brush",), site=SITES[name]).causes["brush"] for name in ("tower50", "high120"))
+    low, high = (plants.draw_plan(1, ("brush",), site=SITES[name]).causes["brush"] for name in ("tower50", "high120"))
     assert high["brush_height"] == pytest.approx(2.4 * low["brush_height"]) and high["brush_side"] == low["brush_side"]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import campaign_files, faults
 from .causes import CAUSES
-from .simulate import STEP, course, ride
+from .simulate import STEP, excitation_of_trip, simulate
 from .sites import TOWER50, Site
 from .tower import Floats
 from .trip import trip
@@ -37,7 +37,7 @@ class Plan:
         return "pair" if len(kinds) > 1 else kinds[0]
 
 
-def drawn(seed: int, causes: tuple[str, ...], level: float | None = None, site: Site = TOWER50) -> Plan:
+def draw_plan(seed: int, causes: tuple[str, ...], level: float | None = None, site: Site = TOWER50) -> Plan:
     """A campaign with given causes, everything else drawn."""
     rng = np.random.default_rng(seed)
     plant = {name: float(getattr(site.tower, name) * rng.uniform(1.0 - off, 1.0 + off)) for name, off in OFF.items()}
@@ -57,24 +57,24 @@ def random_plan(seed: int, site: Site = TOWER50) -> Plan:
     kind = str(rng.choice(list(KINDS), p=list(KINDS.values())))
     among = [name for name, cause in CAUSES.items() if cause.kind == ("known" if kind == "pair" else kind)]
     chosen = rng.choice(among, 2 if kind == "pair" else 1, replace=False)
-    return drawn(seed, tuple(str(one) for one in chosen), site=site)
+    return draw_plan(seed, tuple(str(one) for one in chosen), site=site)
 
 
-def planted(plan: Plan, name: str, causes: Mapping[str, Mapping[str, float]]) -> tuple[dict[str, Floats], Floats]:
+def simulate_run(plan: Plan, name: str, causes: Mapping[str, Mapping[str, float]]) -> tuple[dict[str, Floats], Floats]:
     """One run's true channels (SI, `time` among them) with some of the plan's causes, and what the encoder truly reads."""
     site, run = plan.site, plan.site.runs[name]
     p = site.tower._replace(**plan.plant)
     for cause, values in causes.items():
         p = p._replace(**{to: values[which] for which, to in CAUSES[cause].fields.items()})
     p = p.with_sheave(run.share)
-    given = course(p, *trip(run.start, run.stop, site.limits, STEP, site.every, plan.before))
+    excitation = excitation_of_trip(p, *trip(run.start, run.stop, site.limits, STEP, site.every, plan.before))
     rng = np.random.default_rng([plan.seed, 2, list(site.runs).index(name)])
     for cause, values in causes.items():
-        act = CAUSES[cause].course
-        given = act(p, given, values, rng) if act else given
-    true = ride(p, given, site.sensors, site.every)
+        act = CAUSES[cause].excitation
+        excitation = act(p, excitation, values, rng) if act else excitation
+    true = simulate(p, excitation, site.sensors, site.every)
     recorded = true["time"] >= 0.0
-    car = -given.encoder * given.ends[:: site.every, 0, 0]
+    car = -excitation.encoder * excitation.ends[:: site.every, 0, 0]
     return {name: values[recorded] for name, values in true.items()}, car[recorded]
 
 
@@ -115,9 +115,9 @@ def write(plan: Plan, folder: Path) -> None:
     site = plan.site
     lightest = min(site.runs, key=lambda name: site.runs[name].share)  # where causes show most
     for k, name in enumerate(site.runs):
-        rows = measured(plan, *planted(plan, name, plan.causes), plan.causes)
+        rows = measured(plan, *simulate_run(plan, name, plan.causes), plan.causes)
         if name == lightest and plan.kind != "nothing":
-            shift = shifted(site, rows, measured(plan, *planted(plan, name, {}), {}))
+            shift = shifted(site, rows, measured(plan, *simulate_run(plan, name, {}), {}))
         campaign_files.table(folder / f"{name}.csv", noisy(plan, rows, np.random.default_rng([plan.seed, 3, k])))
     campaign_files.describe(folder, site, plan.seed, stated_noise(plan))
     truth = {

@@ -1,6 +1,6 @@
 """All causes in one table: kind, what is drawn and from where, and what it does.
 
-Sizes go from barely visible to large. A cause acts by fields of `Tower`, on the `Course` (`ends.py`), on one channel
+Sizes go from barely visible to large. A cause acts by fields of `Tower`, on the `Excitation` (`ends.py`), on one channel
 (`instruments.py`), or on the files (`faults.py`). `near` names effects of the library that come close to it.
 """
 
@@ -41,7 +41,7 @@ class Cause:
     size: Mapping[str, Draw] = field(default_factory=dict)
     beside: Mapping[str, Draw] = field(default_factory=dict)
     fields: Mapping[str, str] = field(default_factory=dict)  # the tower's name of a quantity, where it has one
-    course: Act | None = None
+    excitation: Act | None = None
     channel: Fault | None = None
     quantities: tuple[str, ...] = ()  # of the channels that it may hit
     near: tuple[str, ...] = ()
@@ -85,11 +85,11 @@ CAUSES: dict[str, Cause] = {
     "guide_friction": tower("known", {"coulomb_force": Draw(0.5, 80.0)}, coulomb_force="guide_coulomb"),
     "sheave_damper": tower("known", {"damping": Draw(1e3, 3e5)}, damping="guide_damping"),
     "building_sway": Cause(
-        "known", {"amplitude": Draw(1e-4, 3e-2)}, {"frequency": Draw(0.1, 0.9), "phase": PHASE}, course=ends.building_sway,
+        "known", {"amplitude": Draw(1e-4, 3e-2)}, {"frequency": Draw(0.1, 0.9), "phase": PHASE}, excitation=ends.building_sway,
     ),
     "attachment_offset": Cause(
         "known", {"car": Draw(1e-3, 3e-2, signed=True), "counterweight": Draw(1e-3, 3e-2, signed=True)},
-        course=ends.attachment_offset,
+        excitation=ends.attachment_offset,
     ),
     # the instrument; offset, drift and unit in SI
     "sensor_gain": Cause(
@@ -100,16 +100,16 @@ CAUSES: dict[str, Cause] = {
     ),
     "sensor_delay": Cause("instrument", {"delay": Draw(0.01, 0.1)}, channel=instruments.sensor_delay, quantities=LATERAL),
     # outside the library
-    "rail_waves": Cause("outside", {"size": Draw(5e-4, 6e-3)}, {"shift": Draw(0.0, 5.0, even=True)}, course=ends.rail_waves),
-    "gusts": Cause("outside", {"size": Draw(5e-5, 1e-2)}, course=ends.gusts, near=("building_sway",)),
+    "rail_waves": Cause("outside", {"size": Draw(5e-4, 6e-3)}, {"shift": Draw(0.0, 5.0, even=True)}, excitation=ends.rail_waves),
+    "gusts": Cause("outside", {"size": Draw(5e-5, 1e-2)}, excitation=ends.gusts, near=("building_sway",)),
     "counterweight_bounce": Cause(
-        "outside", {"frequency": Draw(5.0, 1.0)}, {"damping_ratio": Draw(0.01, 0.1)}, course=ends.counterweight_bounce,
+        "outside", {"frequency": Draw(5.0, 1.0)}, {"damping_ratio": Draw(0.01, 0.1)}, excitation=ends.counterweight_bounce,
     ),
-    "encoder_scale": Cause("outside", {"excess": Draw(1e-4, 1e-2, signed=True)}, course=ends.encoder_scale),
+    "encoder_scale": Cause("outside", {"excess": Draw(1e-4, 1e-2, signed=True)}, excitation=ends.encoder_scale),
     "splice": Cause(
-        "outside", {"excess": Draw(0.01, 0.2, signed=True)}, {"place": Draw(0.2, 0.8, even=True)}, course=ends.splice,
+        "outside", {"excess": Draw(0.01, 0.2, signed=True)}, {"place": Draw(0.2, 0.8, even=True)}, excitation=ends.splice,
     ),
-    "warming": Cause("outside", {"strain": Draw(4e-6, 2e-4, signed=True)}, course=ends.warming),
+    "warming": Cause("outside", {"strain": Draw(4e-6, 2e-4, signed=True)}, excitation=ends.warming),
     "unbalance": tower("outside", {"unbalance": Draw(0.02, 1.5)}, {"unbalance_phase": PHASE}, near=("sheave_eccentricity",)),
     "brush": tower(
         "outside", {"brush_stiffness": Draw(0.5, 1e3)},

@@ -1,4 +1,4 @@
-"""Causes that act on the rope's ends, its temperature, its mass, or the encoder: each gives another `Course`."""
+"""Causes that act on the rope's ends, its temperature, its mass, or the encoder: each gives another `Excitation`."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -6,91 +6,91 @@ from dataclasses import replace
 import numpy as np
 from scipy.signal import lsim
 
-from .simulate import Course
+from .simulate import Excitation
 from .tower import Floats, Tower
 
 Values = Mapping[str, float]
-Act = Callable[[Tower, Course, Values, np.random.Generator], Course]
+Act = Callable[[Tower, Excitation, Values, np.random.Generator], Excitation]
 CAR_X, CAR_Y, CW_X, CW_Y = range(4)
 
 
-def building_sway(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
+def building_sway(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """Both ends move sideways with the building, linearly over height from the axle as built to the top landing."""
     rate = 2.0 * np.pi * by["frequency"]
-    angle = rate * given.time + by["phase"]
+    angle = rate * excitation.time + by["phase"]
     wave = by["amplitude"] * np.stack([np.sin(angle), rate * np.cos(angle), -(rate**2) * np.sin(angle)], axis=-1)
-    return _swayed(p, given, wave)
+    return _swayed(p, excitation, wave)
 
 
-def gusts(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
+def gusts(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """Irregular sway: many rates between 0.08 and 1.2 Hz, others in each run; it sets in within two seconds."""
     rates, phases = 2.0 * np.pi * rng.uniform(0.08, 1.2, 24), rng.uniform(0.0, 2.0 * np.pi, 24)
-    angles = np.outer(given.time - given.time[0], rates) + phases
+    angles = np.outer(excitation.time - excitation.time[0], rates) + phases
     size = by["size"] * np.sqrt(2.0 / 24)
     wave = size * np.stack([np.sin(angles).sum(1), (rates * np.cos(angles)).sum(1), -(rates**2 * np.sin(angles)).sum(1)], axis=-1)
-    return _swayed(p, given, _faded(given.time - given.time[0], wave))
+    return _swayed(p, excitation, _faded(excitation.time - excitation.time[0], wave))
 
 
-def attachment_offset(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
+def attachment_offset(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """The ends hang outside the sheave's sides."""
-    ends = given.ends.copy()
+    ends = excitation.ends.copy()
     ends[:, CAR_Y, 0] -= by["car"]
     ends[:, CW_Y, 0] += by["counterweight"]
-    return replace(given, ends=ends)
+    return replace(excitation, ends=ends)
 
 
-def rail_waves(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
+def rail_waves(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """Guide rails with joints of 5 m push the car sideways: locked to its position."""
-    ends, k = given.ends.copy(), 2.0 * np.pi / 5.0
+    ends, k = excitation.ends.copy(), 2.0 * np.pi / 5.0
     height, speed, acceleration = -ends[:, CAR_X].T
     angle = k * (height + by["shift"])
     ends[:, CAR_Y, 0] += by["size"] * np.sin(angle)
     ends[:, CAR_Y, 1] += by["size"] * k * np.cos(angle) * speed
     ends[:, CAR_Y, 2] += by["size"] * (k * np.cos(angle) * acceleration - k * k * np.sin(angle) * speed**2)
-    return replace(given, ends=ends)
+    return replace(excitation, ends=ends)
 
 
-def counterweight_bounce(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
+def counterweight_bounce(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """The counterweight bounces on its hoist rope, which the encoder does not see."""
-    ends, w, damping = given.ends.copy(), 2.0 * np.pi * by["frequency"], by["damping_ratio"]
+    ends, w, damping = excitation.ends.copy(), 2.0 * np.pi * by["frequency"], by["damping_ratio"]
     driven = -ends[:, CW_X, 2]
     system = ([[0.0, 1.0], [-w * w, -2.0 * damping * w]], [[0.0], [1.0]], [[1.0, 0.0]], [[0.0]])
-    _, _, states = lsim(system, driven, given.time)
+    _, _, states = lsim(system, driven, excitation.time)
     ends[:, CW_X, 0] += states[:, 0]
     ends[:, CW_X, 1] += states[:, 1]
     ends[:, CW_X, 2] += driven - 2.0 * damping * w * states[:, 1] - w * w * states[:, 0]
-    return replace(given, ends=ends)
+    return replace(excitation, ends=ends)
 
 
-def encoder_scale(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
+def encoder_scale(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """The encoder's wheel is worn: it reads more or less than the car's true height."""
-    ends = given.ends.copy()
+    ends = excitation.ends.copy()
     ends[:, CAR_X] /= 1.0 + by["excess"]
     ends[:, CW_X] = -ends[:, CAR_X]
     ends[:, CW_X, 0] -= p.height
-    return replace(given, ends=ends, encoder=1.0 + by["excess"])
+    return replace(excitation, ends=ends, encoder=1.0 + by["excess"])
 
 
-def splice(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
+def splice(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """From some place on the rope is another one, with more or less mass per length."""
-    return replace(given, density={by["place"]: 1.0 + by["excess"]})
+    return replace(excitation, density={by["place"]: 1.0 + by["excess"]})
 
 
-def warming(p: Tower, given: Course, by: Values, rng: np.random.Generator) -> Course:
+def warming(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """The rope lengthens or shortens with temperature, by the same strain every minute."""
-    return replace(given, thermal=by["strain"] * (given.time - given.time[0]) / 60.0)
+    return replace(excitation, thermal=by["strain"] * (excitation.time - excitation.time[0]) / 60.0)
 
 
-def _swayed(p: Tower, given: Course, wave: Floats) -> Course:
+def _swayed(p: Tower, excitation: Excitation, wave: Floats) -> Excitation:
     """Both ends moved sideways by wave [k, 3], linear in height (the ends' speed changes the share but slowly)."""
-    ends = given.ends.copy()
+    ends = excitation.ends.copy()
     for x, y in ((CAR_X, CAR_Y), (CW_X, CW_Y)):
         share = (p.pit - ends[:, x, 0]) / (p.height + p.pit)
         rate, bend = -ends[:, x, 1] / (p.height + p.pit), -ends[:, x, 2] / (p.height + p.pit)
         ends[:, y, 0] += share * wave[:, 0]
         ends[:, y, 1] += share * wave[:, 1] + rate * wave[:, 0]
         ends[:, y, 2] += share * wave[:, 2] + 2.0 * rate * wave[:, 1] + bend * wave[:, 0]
-    return replace(given, ends=ends)
+    return replace(excitation, ends=ends)
 
 
 def _faded(time: Floats, wave: Floats) -> Floats:

@@ -7,7 +7,7 @@ import numpy as np
 from .bordered_band import bordered, factor
 from .jit import kernel
 from .rope import inner_forces, inner_tangent, moments, segments
-from .shaft import air, gravity, touched
+from .shaft import air, gravity, shaft_contact
 from .sheave import contact, own_forces
 from .tower import Floats
 
@@ -58,7 +58,7 @@ def forces(p, n, W, mass, kappa0, z0, thermal, wind, q, v, ck, cc, cm, tangent):
     if p.drag > 0.0:
         air(p, n, W.S, q, v, W.f, cc, wind, tangent, W.A)
     if p.brush_stiffness > 0.0 or p.wall_stiffness > 0.0:
-        touched(p, n, q, v, W.f, ck, cc, tangent, W.A)
+        shaft_contact(p, n, q, v, W.f, ck, cc, tangent, W.A)
     W.tensions[0], W.tensions[1] = W.S[0, 3], W.S[n - 2, 3]
     W.tensions[2] = contact(p, n, q, v, W.f, ck, cc, tangent, W.A, W.B, W.C, W.D)
     own_forces(p, q, v, N, W.f, ck, cc, tangent, W.D)
@@ -66,7 +66,7 @@ def forces(p, n, W, mass, kappa0, z0, thermal, wind, q, v, ck, cc, cm, tangent):
 
 @kernel
 def hold_ends(n, W, tangent):
-    """The two ends are where they are told to be."""
+    """Prescribed ends: no correction, unit rows of the tangent."""
     N = 2 * n
     for k in (0, 1, N - 2, N - 1):
         W.x[5 + k] = 0.0

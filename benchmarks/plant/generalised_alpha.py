@@ -4,7 +4,7 @@ import math
 
 from .equations_of_motion import correction, forces
 from .jit import entry, kernel
-from .rope import slipped
+from .rope import dahl_state
 
 RADIUS = 0.7  # spectral radius at infinite frequency
 ALPHA_M = (2.0 * RADIUS - 1.0) / (RADIUS + 1.0)
@@ -16,7 +16,7 @@ CLOSE = 1e-8  # m, a correction below which a step ends
 
 @kernel
 def predict(n, h, ends, q, v, a, q1, v1, a1):
-    """The state after h with the acceleration of now; ends as told, ends [4, 3]: x and y of car and counterweight."""
+    """The state after h with the acceleration of now; prescribed `ends` [4, 3]: x and y of car and counterweight."""
     for k in range(2 * n + 2):
         a1[k] = a[k]
         q1[k] = q[k] + h * v[k] + 0.5 * h * h * a[k]
@@ -28,7 +28,7 @@ def predict(n, h, ends, q, v, a, q1, v1, a1):
 
 @kernel
 def balance(n, p, mass, W, a, a1):
-    """W.x = forces less inertia between the old and the new state; the largest is not needed."""
+    """W.x = forces less inertia between the old and the new state."""
     for k in range(2 * n):
         W.x[5 + k] = W.f[k] - mass[k >> 1] * ((1.0 - ALPHA_M) * a1[k] + ALPHA_M * a[k])
     k = 2 * n
@@ -71,12 +71,12 @@ def keep_history(p, n, W, q1, kappa0, z0):
         bx, by = q1[2 * i + 2] - q1[2 * i], q1[2 * i + 3] - q1[2 * i + 1]
         size = math.sqrt((ax * ax + ay * ay) * (bx * bx + by * by))
         kappa = 2.0 * (ax * by - ay * bx) / (size + ax * bx + ay * by) / p.element
-        z0[i] = slipped(p, kappa - kappa0[i], z0[i])
+        z0[i] = dahl_state(p, kappa - kappa0[i], z0[i])
         kappa0[i] = kappa
 
 
 @kernel
-def seen(n, q, radius, side, height):
+def lateral_displacement(n, q, radius, side, height):
     """Outward distance of the rope from the vertical at a height; NaN where its end has passed."""
     first, way = (0, 1) if side < 0.0 else (n - 1, -1)
     x = -height
@@ -91,7 +91,7 @@ def seen(n, q, radius, side, height):
 
 
 @entry
-def march(p, n, h, W, mass, ends, thermal, kappa0, z0, q, v, a, work3, sensors, every, out):
+def integrate(p, n, h, W, mass, ends, thermal, kappa0, z0, q, v, a, work3, sensors, every, out):
     """Move the ends along ends [steps + 1, 4, 3] and fill out [steps / every + 1, 6 + sensors].
 
     Columns: axle, angle, angular velocity, car's and counterweight's end tension, sheave force, then sensors [count, 2] of side
@@ -116,5 +116,5 @@ def march(p, n, h, W, mass, ends, thermal, kappa0, z0, q, v, a, work3, sensors, 
             row[0], row[1], row[2] = q[2 * n], q[2 * n + 1], v[2 * n + 1]
             row[3], row[4], row[5] = W.tensions[0], W.tensions[1], W.tensions[2]
             for s in range(len(sensors)):
-                row[6 + s] = seen(n, q, p.radius, sensors[s, 0], sensors[s, 1])
+                row[6 + s] = lateral_displacement(n, q, p.radius, sensors[s, 0], sensors[s, 1])
     return total / steps

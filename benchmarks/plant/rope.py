@@ -39,11 +39,11 @@ def moments(p, n, S, kappa0, z0, m, kappa):
         m[i] = (p.EI * (k - p.set_curvature) + p.bending_damping * (S[i, 4] - S[i - 1, 4]) * widen / l) * widen
     if p.dahl_moment > 0.0:
         for i in range(1, n - 1):
-            m[i] += p.dahl_moment * slipped(p, kappa[i] - kappa0[i], z0[i])
+            m[i] += p.dahl_moment * dahl_state(p, kappa[i] - kappa0[i], z0[i])
 
 
 @kernel
-def slipped(p, change, z):
+def dahl_state(p, change, z):
     """Dahl's state after a change of curvature: dz = (dk - |dk| z) / yield curvature, solved exactly for one direction."""
     end = 1.0 if change > 0.0 else -1.0
     return end + (z - end) * math.exp(-abs(change) / p.dahl_curvature)

@@ -36,7 +36,7 @@ def air(p, n, S, q, v, f, cc, car_velocity, tangent, A):
 
 
 @kernel
-def touched(p, n, q, v, f, ck, cc, tangent, A):
+def shaft_contact(p, n, q, v, f, ck, cc, tangent, A):
     """Add the brush (0.2 m high, springy both ways) and the wall (1 m high, rubbed from one side)."""
     for i in range(1, n - 1):
         side = 1.0 if q[2 * i + 1] > 0.0 else -1.0

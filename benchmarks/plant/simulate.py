@@ -1,4 +1,4 @@
-"""One ride of the tower: what its channels truly do."""
+"""Simulation of one run of the tower: its true channels."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -6,16 +6,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .equations_of_motion import work
-from .generalised_alpha import march
-from .static_equilibrium import standing
+from .generalised_alpha import integrate
+from .static_equilibrium import static_equilibrium
 from .tower import Floats, Tower
 
 STEP = 0.004  # s
 
 
 @dataclass(frozen=True)
-class Course:
-    """What is done to the tower: time [k], the ends [k, 4, 3] (x and y of car and counterweight, two derivatives), and more."""
+class Excitation:
+    """Excitation of the tower: time [k], the ends [k, 4, 3] (x and y of car and counterweight, two derivatives), and more."""
 
     time: Floats
     ends: Floats
@@ -24,43 +24,58 @@ class Course:
     encoder: float = 1.0  # what the encoder reads over the true height
 
 
-def course(p: Tower, time: Floats, motion: Floats) -> Course:
+def excitation_of_trip(p: Tower, time: Floats, motion: Floats) -> Excitation:
     """The ends on the vertical through the sheave's sides, the counterweight against the car."""
     ends = np.zeros((len(time), 4, 3))
     ends[:, 0], ends[:, 2] = -motion, motion
     ends[:, 2, 0] -= p.height
     ends[:, 1, 0], ends[:, 3, 0] = -p.radius, p.radius
-    return Course(time, ends, np.zeros(len(time)))
+    return Excitation(time, ends, np.zeros(len(time)))
 
 
-def ride(p: Tower, given: Course, sensors: Mapping[str, tuple[float, float]], every: int) -> dict[str, Floats]:
+def simulate(p: Tower, excitation: Excitation, sensors: Mapping[str, tuple[float, float]], every: int) -> dict[str, Floats]:
     """Channels at one of `every` steps, in SI units: `time`, `axle` (up), `turned`, `omega`, tensions, `force`, and the sensors.
 
     Sensors are a side, -1 car and +1 counterweight, and a height each.
     """
-    p, n = p.laid_out()
+    p, n = p.discretised()
     W = work(n)
     mass = np.full(n, p.mass_per_length * p.element)
-    for share, factor in sorted(given.density.items()):
+    for share, factor in sorted(excitation.density.items()):
         mass[round(share * n) :] = factor * p.mass_per_length * p.element
-    begin = given.ends[0]
-    q = standing(p, n, W, mass, -begin[0, 0], (-begin[1, 0] - p.radius, begin[3, 0] - p.radius))
+    begin = excitation.ends[0]
+    q = static_equilibrium(p, n, W, mass, -begin[0, 0], (-begin[1, 0] - p.radius, begin[3, 0] - p.radius))
     places = np.array(list(sensors.values())).reshape(-1, 2)
-    out = np.zeros(((len(given.time) - 1) // every + 1, 6 + len(places)))
-    kappa = bent(p, n, q)
+    out = np.zeros(((len(excitation.time) - 1) // every + 1, 6 + len(places)))
+    kappa = curvature(p, n, q)
     v, a = np.zeros_like(q), np.zeros_like(q)
-    done = march(
-        p, n, STEP, W, mass, given.ends, given.thermal, kappa, np.zeros(n), q, v, a, np.zeros((5, len(q))), places, every, out
+    done = integrate(
+        p,
+        n,
+        STEP,
+        W,
+        mass,
+        excitation.ends,
+        excitation.thermal,
+        kappa,
+        np.zeros(n),
+        q,
+        v,
+        a,
+        np.zeros((5, len(q))),
+        places,
+        every,
+        out,
     )
     if done < 0.0:
-        raise RuntimeError(f"the plant failed {-done * STEP:.3f} s into the ride")
+        raise RuntimeError(f"the plant failed {-done * STEP:.3f} s into the run")
     names = ("axle", "turned", "omega", "car_tension", "counterweight_tension", "force", *sensors)
     channels = dict(zip(names, out.T.copy(), strict=True))
     channels["axle"] = -channels["axle"]
-    return {"time": given.time[::every]} | channels
+    return {"time": excitation.time[::every]} | channels
 
 
-def bent(p: Tower, n: int, q: Floats) -> Floats:
+def curvature(p: Tower, n: int, q: Floats) -> Floats:
     """Curvature [n] of a state's shape."""
     points = q[: 2 * n].reshape(n, 2)
     ways = np.diff(points, axis=0)

@@ -10,7 +10,7 @@ from .tower import GRAVITY, Floats, Tower
 
 
 @entry
-def relax(p, n, W, mass, kappa0, z0, q, v):
+def solve_equilibrium(p, n, W, mass, kappa0, z0, q, v):
     """Newton's iteration with a mass that vanishes with the imbalance; the sheave does not turn. Returns the last correction."""
     N = 2 * n
     first = size = 0.0
@@ -35,12 +35,12 @@ def relax(p, n, W, mass, kappa0, z0, q, v):
     return largest
 
 
-def guess(p: Tower, n: int, car: float, offsets: tuple[float, float]) -> Floats:
+def initial_guess(p: Tower, n: int, car: float, offsets: tuple[float, float]) -> Floats:
     """Straight sides, stretched by their weight, and an arc; q [2 n + 2] with the car's end at height `car`."""
     T0, w = 0.5 * p.sheave_mass * GRAVITY, p.mass_per_length * GRAVITY
     arc = math.pi * p.radius
 
-    def hung(s: Floats | float) -> Floats | float:
+    def stretched(s: Floats | float) -> Floats | float:
         return s + (T0 * s + 0.5 * w * s * s) / p.EA  # height above the axle of the rope's metre s
 
     axle = p.pit
@@ -52,7 +52,7 @@ def guess(p: Tower, n: int, car: float, offsets: tuple[float, float]) -> Floats:
     left, right = natural[0], p.rope_length - natural[1]
     angle = np.pi * np.clip((s - left) / (right - left), 0.0, 1.0)
     r = p.radius - T0 / p.radius / p.contact_stiffness
-    up = np.where(s < left, hung(left - s), np.where(s > right, hung(s - right), 0.0))
+    up = np.where(s < left, stretched(left - s), np.where(s > right, stretched(s - right), 0.0))
     x = axle - up + r * np.sin(angle)
     y = -r * np.cos(angle)
     q = np.zeros(2 * n + 2)
@@ -62,11 +62,11 @@ def guess(p: Tower, n: int, car: float, offsets: tuple[float, float]) -> Floats:
     return q
 
 
-def standing(p: Tower, n: int, W: Work, mass: Floats, car: float, offsets: tuple[float, float]) -> Floats:
+def static_equilibrium(p: Tower, n: int, W: Work, mass: Floats, car: float, offsets: tuple[float, float]) -> Floats:
     """The state at rest, with the ends `offsets` [m] outside the sheave's sides."""
-    q = guess(p, n, car, offsets)
+    q = initial_guess(p, n, car, offsets)
     still = p._replace(friction=0.0, dahl_moment=0.0, drag=0.0)
-    left = relax(still, n, W, mass, np.zeros(n), np.zeros(n), q, np.zeros_like(q))
+    left = solve_equilibrium(still, n, W, mass, np.zeros(n), np.zeros(n), q, np.zeros_like(q))
     if not left < 1e-8:
         raise RuntimeError(f"the rope found no rest: the last correction was {left:.1e} m")
     return q

@@ -73,7 +73,7 @@ class Tower(NamedTuple):
         phase = self.eccentric_phase + self.crept * mass / self.sheave_mass * math.sin(self.eccentric_phase)
         return self._replace(sheave_mass=mass, inertia=share * self.inertia, eccentric_phase=phase)
 
-    def laid_out(self) -> tuple["Tower", int]:
+    def discretised(self) -> tuple["Tower", int]:
         """The tower with an element that divides the rope's length, and the number of nodes."""
         count = round(self.rope_length / self.element)
         return self._replace(element=self.rope_length / count), count + 1
