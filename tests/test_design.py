@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+import comprope_system
 from comprope.errors import InputError
 from comprope.rope.model_file import load
 from comprope_system import cli
@@ -99,6 +100,17 @@ def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
     assert {"design.html", "resonance_own.png", "resonance_least.png", "design_mass.png"} <= {
         one.name for one in tmp_path.iterdir()
     }
+    again = comprope_system.design(  # from the sweeps' results in the same folder
+        "tower50",
+        comprope_system.DesignOptions(0.004, 3, comprope_system.BuildingSway(0.005, 2.0, 60.0)),
+        changes={"rope.element_length": 0.1, "solver.step": 0.01, "shaft.height": 12.0},
+        checkpoint=tmp_path / "runs.jsonl",
+    )
+    assert json.loads(json.dumps(again.to_json(), allow_nan=False)) == result
+    assert again.sheave_mass == again.new_model.sheave.mass == mass and again.model.sheave.mass == result["own_mass"]
+    assert list(again.to_dataframe()["sheave_mass"]) == [one["mass"] for one in result["scanned"]]
+    assert again.headline() == again.summary().splitlines()[0] and "<table" in again._repr_html_()
+    assert capsys.readouterr() == ("", "")
 
 
 def test_departures_at_fixed_heights_are_read_between_places_and_nought_beyond_the_rope() -> None:

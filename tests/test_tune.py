@@ -6,6 +6,7 @@ import control
 import numpy as np
 import pytest
 
+import comprope_system
 from comprope.drive.parameters import CompensationRopes, Curve, Drive, FirstTrip, Profile, Servo, Shaft, Shaper
 from comprope.drive.simulator import DriveSimulator
 from comprope.drive.trajectory.reference_trajectory import first_trajectory
@@ -35,7 +36,7 @@ from comprope_system.tuning.search import lower_bound, servo_gains
 from comprope_system.tuning.search.profile_families import KINDS, Route, drive_for, trajectory_of
 from comprope_system.tuning.search.quasi_random_search import Candidate, Search, _distinct
 from comprope_system.tuning.search.trajectory_optimisation import Objective, optimised_drive
-from comprope_system.tuning.task import periods
+from comprope_system.tuning.task import TUNED_PARTS, periods
 
 COARSE = {"rope.element_length": 0.1, "solver.step": 0.01}
 TOWER = with_changes(load(model_path("tower50")), COARSE)
@@ -289,6 +290,14 @@ def test_a_tiny_tuning_writes_a_drive_that_the_fmu_runs(capsys, tmp_path, monkey
     } <= names
     drive = load_drive(tmp_path / "trip_1_7.drive.toml", {"shaft": {"height": 12.0}, "trip": {"destination": 7.0}})
     assert drive.curve.used or drive.shaper != Shaper() or drive.profile != LIMITS
+    again = comprope_system.tune(  # from the sweeps' results in the same folder
+        "tower50", comprope_system.TuningOptions([(1.0, 7.0)], [1.2]), checkpoint=tmp_path / "runs.jsonl",
+        changes={"rope.element_length": 0.2, "solver.step": 0.01, "shaft.height": 12.0},
+    )  # fmt: skip
+    assert json.loads(json.dumps(again.to_json(), allow_nan=False)) == result
+    assert again.drives["1_7"][0].model_dump(include=TUNED_PARTS) == drive.model_dump(include=TUNED_PARTS)
+    assert list(again.to_dataframe()["travel_time"]) == [trip["points"][0]["time"]]
+    assert "1 trip tuned" in again.headline() and "<table" in again._repr_html_()
     csv = tmp_path / "trip.csv"
     target = ["--from", 1, "--to", 7, "--drive", tmp_path / "trip_1_7.drive.toml", "--step", 0.05, "--out", csv]
     assert run(capsys, "simulate", "tower50", *changes, *target)[0] == 0

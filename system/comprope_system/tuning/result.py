@@ -41,7 +41,7 @@ class TuningResult(Result):
     def headline(self) -> str:
         """How many trips were tuned, and whether one controller serves them all."""
         common = f"one controller for all: {self.controller['kind']}" if self.controller else "no controller for all of them"
-        return f"{self.settings['model']}: {len(self.trips)} trips tuned, {common}"
+        return f"{self.settings['model']}: {len(self.trips)} trip{'s' if len(self.trips) != 1 else ''} tuned, {common}"
 
     def summary(self) -> str:
         """One line for each trip: swing during and after it with the present, the best S-curve and the tuned drive."""
