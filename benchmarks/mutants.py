@@ -6,40 +6,69 @@ runs all mutants of `mutants_table`, or those whose names begin with one of the 
 sources in a temporary folder; the tests run there, kernels without a compiler (`COMPROPE_PURE_PYTHON=1`), so that a mutant costs
 seconds. A mutant is killed if a test fails, and has survived if all pass; a text that is not found, or not once, is an error, as
 is a mutant that cannot be imported. The tests run on the unchanged copy first: what fails there would kill everything.
+
+Each run of tests is a fork of this process, which has imported the libraries but nothing of the project; Linux and macOS only.
 """
 
 import argparse
+import compileall
+import importlib
 import os
-import queue
 import re
 import resource
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 
+import pytest
 from mutants_table import MUTANTS, Mutant
 
 ROOT = Path(__file__).parents[1]
 PARTS = ("fmu_src", "system", "tests", "docs", "pyproject.toml")
-LIMIT = 300.0  # s for the tests of one mutant; one that never ends is killed by that
-PASSED, FAILED = 0, 1  # what pytest returns
+LIMIT = 120  # s of processor time for the tests of one mutant; one that never ends is killed by that
+PASSED, FAILED, ENDLESS = 0, 1, 2  # of a run of tests; what pytest returns, or more
+# Libraries that tests import: once here instead of once for each mutant.
+LIBRARIES = (
+    "numpy", "scipy.interpolate", "scipy.linalg", "scipy.optimize", "scipy.signal", "scipy.special", "scipy.sparse", "numba",
+    "numba.extending", "pydantic", "pandas", "control", "rich.progress", "matplotlib.pyplot", "hypothesis", "fmpy", "pythonfmu",
+)  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What became of a mutant: "killed", "survived", or what is wrong with it, by which test, in how many seconds."""
+@dataclass
+class Job:
+    """Tests to run in a copy, with or without the compiler, on the sources as they are or with a mutant in them."""
 
-    mutant: Mutant
-    outcome: str
-    by: str
-    seconds: float
+    name: str
+    tests: Sequence[str]
+    without_compiler: bool
+    mutant: Mutant | None = None
+    status: int = PASSED
+    output: str = ""
+    problem: str = ""
+    seconds: float = field(default=0.0)
+
+    @property
+    def by(self) -> str:
+        """The first test that failed."""
+        failed = re.search(r"^(?:FAILED|ERROR) tests/(\S+)", self.output, re.MULTILINE)
+        return failed[1] if failed else ""
+
+    @property
+    def outcome(self) -> str:
+        """What became of a mutant: "killed", "survived", or what is wrong with it."""
+        if self.problem:
+            return f"not applicable: {self.problem}"
+        known = {PASSED: "survived", FAILED: "killed", ENDLESS: f"killed, no end within {LIMIT} s"}
+        return known.get(self.status, f"broken: pytest ends with {self.status}")
+
+    def line(self) -> str:
+        """Name, outcome, first test that failed, and processor time."""
+        return f"{self.name:52s} {self.outcome:9s} {self.seconds:6.1f} s  {self.by}"
 
 
 def main() -> None:
@@ -51,81 +80,113 @@ def main() -> None:
     chosen = [one for one in MUTANTS if not given.names or one.name.startswith(tuple(given.names))]
     if not chosen:
         parser.error(f"no mutant has a name that begins with {' or '.join(given.names)}")
-    verdicts = run_mutants(chosen, given.jobs)
-    report(verdicts)
-    sys.exit(any(one.outcome != "killed" for one in verdicts))
-
-
-def run_mutants(mutants: Sequence[Mutant], jobs: int) -> list[Verdict]:
-    """The verdicts on some mutants, in their order; raises SystemExit if a test fails without any mutant."""
-    begun, found = time.monotonic(), {}
+    begun = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
-        folders: queue.SimpleQueue[Path] = queue.SimpleQueue()
-        for k in range(jobs):
-            folders.put(copied(Path(folder) / str(k)))
-        check_unchanged(mutants, folders, jobs)
-
-        def judged(mutant: Mutant) -> Verdict:
-            place = folders.get()
-            try:
-                return judge(mutant, place)
-            finally:
-                folders.put(place)
-
-        with ThreadPoolExecutor(jobs) as executor:
-            for done, future in enumerate(as_completed([executor.submit(judged, one) for one in mutants]), 1):
-                verdict = future.result()
-                found[verdict.mutant.name] = verdict
-                left = (time.monotonic() - begun) / done * (len(mutants) - done)
-                print(f"{done} of {len(mutants)}, about {left / 60.0:.0f} min left: {line(verdict)}", flush=True)
-    return [found[one.name] for one in mutants]
+        folders = copies(Path(folder), given.jobs)
+        for name in LIBRARIES:
+            importlib.import_module(name)
+        for job in run_all(unchanged(chosen), folders):
+            if job.status != PASSED:
+                sys.exit(f"{job.name}: {job.by or job.outcome}\n{job.output[-2000:]}")
+        jobs = [Job(one.name, one.tests, one.in_kernels, one) for one in chosen]
+        for _ in run_all(jobs, folders):
+            pass
+    report(jobs, time.monotonic() - begun)
+    sys.exit(any(not one.outcome.startswith("killed") for one in jobs))
 
 
-def copied(folder: Path) -> Path:
-    """A copy of the sources and tests in a new folder."""
-    folder.mkdir(parents=True)
+def copies(folder: Path, number: int) -> list[Path]:
+    """Copies of sources and tests in a folder, with their bytecode."""
+    first = folder / "0"
+    first.mkdir()
     for name in PARTS:
-        source, target = ROOT / name, folder / name
+        source, target = ROOT / name, first / name
         if source.is_dir():
             shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
         else:
-            shutil.copy(source, target)
-    return folder
+            shutil.copy2(source, target)
+    for name in ("fmu_src", "system"):
+        compileall.compile_dir(first / name, quiet=1)
+    for k in range(1, number):
+        shutil.copytree(first, folder / str(k))
+    return [folder / str(k) for k in range(number)]
 
 
-def check_unchanged(mutants: Sequence[Mutant], folders: "queue.SimpleQueue[Path]", jobs: int) -> None:
-    """Run every test that is named on the unchanged copies, with and without the compiler as the mutants do."""
-    groups: dict[tuple[bool, str], list[str]] = {}
+def unchanged(mutants: Sequence[Mutant]) -> list[Job]:
+    """Every test that the mutants name, file by file, without a mutant."""
+    groups: dict[tuple[str, bool], list[str]] = {}
     for one in mutants:
         for test in one.tests:
-            tests = groups.setdefault((one.in_kernels, test.partition("::")[0]), [])
+            tests = groups.setdefault((test.partition("::")[0], one.in_kernels), [])
             tests += [test] if test not in tests else []
+    return [Job(f"{file}, no mutant", tests, in_kernels) for (file, in_kernels), tests in groups.items()]
 
-    def run(group: tuple[bool, str]) -> tuple[int, str]:
-        place = folders.get()
+
+def run_all(jobs: Sequence[Job], folders: Sequence[Path]) -> Iterator[Job]:
+    """Run jobs, one in each folder at a time; gives them as they end and prints how far it is."""
+    begun, idle, running, left, done = time.monotonic(), list(folders), {}, list(jobs)[::-1], 0
+    while left or running:
+        while left and idle:
+            job, folder = left.pop(), idle.pop()
+            running[start(job, folder)] = job, folder
+        process, status, usage = os.wait4(-1, 0)
+        job, folder = running.pop(process)
+        finish(job, folder, status, usage)
+        idle.append(folder)
+        done += 1
+        minutes = (time.monotonic() - begun) / done * (len(jobs) - done) / 60.0
+        print(f"{done:3d} of {len(jobs)}, about {minutes:.0f} min left: {job.line()}", flush=True)
+        yield job
+
+
+def start(job: Job, folder: Path) -> int:
+    """Apply a job's mutant in a folder and run its tests there in a fork; returns the process."""
+    if job.mutant:
         try:
-            return pytest(place, groups[group], without_compiler=group[0])
-        finally:
-            folders.put(place)
-
-    with ThreadPoolExecutor(jobs) as executor:
-        for k, (group, (status, by)) in enumerate(zip(groups, executor.map(run, groups), strict=True), 1):
-            if status != PASSED:
-                sys.exit(f"{group[1]} does not pass without any mutant: {by or f'pytest returns {status}'}")
-            print(f"{k} of {len(groups)} files of tests pass without any mutant", flush=True)
-
-
-def judge(mutant: Mutant, folder: Path) -> Verdict:
-    """Apply a mutant in a copy, run its tests, and take it back."""
-    begun = time.monotonic()
+            file, text = mutated(job.mutant, folder)
+            (folder / "original").write_text(file.read_text(encoding="utf-8"), encoding="utf-8")
+            (folder / "changed").write_text(str(file), encoding="utf-8")
+            file.write_text(text, encoding="utf-8")
+        except LookupError as error:
+            job.problem = error.args[0]
+    process = os.fork()
+    if process:
+        return process
+    status = PASSED
     try:
-        file, changed = mutated(mutant, folder)
-    except LookupError as error:
-        return Verdict(mutant, f"not applicable: {error.args[0]}", "", 0.0)
-    with replaced(file, changed):
-        status, by = pytest(folder, mutant.tests, without_compiler=mutant.in_kernels)
-    outcome = {PASSED: "survived", FAILED: "killed"}.get(status, f"broken: pytest returns {status}")
-    return Verdict(mutant, outcome, by, time.monotonic() - begun)
+        if not job.problem:
+            status = run_tests(job, folder)
+    finally:
+        os._exit(status)
+
+
+def run_tests(job: Job, folder: Path) -> int:
+    """Run a job's tests in this process, which ends with it; returns what pytest returns."""
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
+    os.chdir(folder)
+    os.environ |= {"OPENBLAS_NUM_THREADS": "1", "COMPROPE_PURE_PYTHON": "1" if job.without_compiler else "0"}
+    os.environ["PYTHONPATH"] = os.pathsep.join(str(folder / name) for name in ("fmu_src", "system"))
+    sys.path[:0] = [str(folder / "fmu_src"), str(folder / "system")]
+    sys.dont_write_bytecode = True
+    for stream in (1, 2):
+        os.dup2(os.open(folder / "output", os.O_WRONLY | os.O_CREAT | (os.O_TRUNC if stream == 1 else os.O_APPEND)), stream)
+    options = ["-x", "-q", "--no-header", "--tb=no", "-rfE", "-p", "no:cacheprovider"]
+    status = int(pytest.main([*options, *(f"tests/{test}" for test in job.tests)]))
+    sys.stdout.flush()
+    return status
+
+
+def finish(job: Job, folder: Path, status: int, usage: resource.struct_rusage) -> None:
+    """Take the mutant back and note what the tests have shown."""
+    job.status = os.waitstatus_to_exitcode(status)
+    job.status = ENDLESS if job.status < 0 else 3 if job.status == ENDLESS else job.status
+    job.seconds = usage.ru_utime + usage.ru_stime
+    with suppress(FileNotFoundError):
+        job.output = (folder / "output").read_text(encoding="utf-8", errors="replace")
+        (folder / "output").unlink()
+    with suppress(FileNotFoundError):
+        Path((folder / "changed").read_text(encoding="utf-8")).write_text((folder / "original").read_text(encoding="utf-8"))
+        (folder / "changed").unlink()
 
 
 def mutated(mutant: Mutant, root: Path) -> tuple[Path, str]:
@@ -153,52 +214,20 @@ def parts_of(mutant: Mutant, text: str) -> Iterator[tuple[int, int]]:
         yield head.start(), end.start() if end else len(text)
 
 
-@contextmanager
-def replaced(file: Path, text: str) -> Iterator[None]:
-    """The file with another text while the context lasts."""
-    before = file.read_text(encoding="utf-8")
-    file.write_text(text, encoding="utf-8")
-    try:
-        yield
-    finally:
-        file.write_text(before, encoding="utf-8")
-
-
-def pytest(folder: Path, tests: Sequence[str], *, without_compiler: bool) -> tuple[int, str]:
-    """What pytest returns for some tests in a copy, and the first one that failed."""
-    paths = os.pathsep.join(str(folder / name) for name in ("fmu_src", "system"))
-    environment = os.environ | {"PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
-    environment |= {"COMPROPE_PURE_PYTHON": "1" if without_compiler else "0"}
-    options = ["-x", "-q", "--no-header", "--tb=no", "-rfE", "-p", "no:cacheprovider", "-p", "no:randomly"]
-    command = [sys.executable, "-m", "pytest", *options, *(f"tests/{test}" for test in tests)]
-    try:
-        done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=LIMIT, check=False)
-    except subprocess.TimeoutExpired:
-        return FAILED, f"no end within {LIMIT:g} s"
-    failed = re.search(r"^(?:FAILED|ERROR) tests/(\S+)", done.stdout, re.MULTILINE)
-    return done.returncode, failed[1] if failed else ""
-
-
-def line(verdict: Verdict) -> str:
-    """A verdict in one line."""
-    by = f" by {verdict.by}" if verdict.by else ""
-    return f"{verdict.mutant.name}: {verdict.outcome}{by} ({verdict.seconds:.0f} s)"
-
-
-def report(verdicts: Sequence[Verdict]) -> None:
-    """Print a table of all mutants, and how many of each part of the program were killed."""
-    for one in verdicts:
-        print(f"{one.mutant.name:44s} {one.outcome:9s} {one.seconds:5.0f} s  {one.by}")
-    areas = dict.fromkeys(one.mutant.area for one in verdicts)
-    for area in areas:
-        own = [one for one in verdicts if one.mutant.area == area]
-        print(f"{area:20s} {sum(one.outcome == 'killed' for one in own):3d} of {len(own):3d} killed")
+def report(jobs: Sequence[Job], elapsed: float) -> None:
+    """Print a table of all mutants, how many of each part of the program were killed, and the time."""
+    for one in jobs:
+        print(one.line())
+    for area in dict.fromkeys(one.mutant.area for one in jobs if one.mutant):
+        own = [one.outcome.startswith("killed") for one in jobs if one.mutant and one.mutant.area == area]
+        print(f"{area:15s} {sum(own):3d} of {len(own):3d} killed")
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    killed = sum(one.outcome == "killed" for one in verdicts)
-    print(f"{killed} of {len(verdicts)} killed; {(children.ru_utime + children.ru_stime) / 60.0:.1f} min of processor time")
-    for one in verdicts:
-        if one.outcome != "killed":
-            print(f"NOT KILLED: {line(one)}")
+    killed = sum(one.outcome.startswith("killed") for one in jobs)
+    processor = (children.ru_utime + children.ru_stime) / 60.0
+    print(f"{killed} of {len(jobs)} killed in {elapsed / 60.0:.1f} min, {processor:.1f} min of processor time")
+    for one in jobs:
+        if not one.outcome.startswith("killed"):
+            print(f"NOT KILLED: {one.line()}")
 
 
 if __name__ == "__main__":
