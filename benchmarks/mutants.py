@@ -170,7 +170,7 @@ def run_tests(job: Job, folder: Path) -> int:
     sys.dont_write_bytecode = True
     for stream in (1, 2):
         os.dup2(os.open(folder / "output", os.O_WRONLY | os.O_CREAT | (os.O_TRUNC if stream == 1 else os.O_APPEND)), stream)
-    options = ["-x", "-q", "--no-header", "--tb=no", "-rfE", "-p", "no:cacheprovider"]
+    options = ["-x", "-q", "--no-header", "--tb=no", "-rfE", "-W", "ignore", "-p", "no:cacheprovider"]
     status = int(pytest.main([*options, *(f"tests/{test}" for test in job.tests)]))
     sys.stdout.flush()
     return status

@@ -52,8 +52,8 @@ ENDS = "test_effect_forces.py::test_effect_moves_the_ends_as_its_formula_says"
 DERIVATIVES = "test_sensitivity_step.py::test_derivatives_are_those_of_whole_runs"
 OUTPUTS, UNITS, CONSENT = "test_rope_outputs.py", "test_units_of_measurements.py", "test_consent.py"
 WHITE, SCORES, CLOCK = "test_whitening.py", "test_model_score.py", "test_clock_offset.py"
-SERVO, DRIVEN, COURSE, TRIP = (f"test_drive_{name}.py" for name in ("servo", "engine", "course", "trajectory"))
-FMI_RUN, FMI_INSTANCE, SWEEPS = "test_fmi_run.py", "test_fmi_instance.py", "test_sweep.py"
+SERVO, DRIVEN, COURSE, TRIP = (f"test_drive_{name}.py" for name in ("servo", "simulator", "reference_trajectory", "s_curve"))
+FMI_RUN, FMI_INSTANCE, SWEEPS = "test_fmi_without_fmu.py", "test_fmi_instance.py", "test_sweep.py"
 
 
 def mutants(area: str, place: str, *rows: tuple[str, ...]) -> list[Mutant]:
@@ -310,9 +310,9 @@ MUTANTS = [
         ("no_anti_windup", "if (force - limited) * error > 0.0:", "if False:", SERVO),
         ("no_limit", "min(max(force, limits[0]), limits[1])", "force", SERVO),
         ("position_gain_of_the_way_s_sign", "(reference.position - position)", "(reference.position + position)",
-         f"{DRIVEN}::test_the_engine_answers_like_python_controls_closed_loop"),
+         f"{DRIVEN}::test_the_simulator_answers_like_python_controls_closed_loop"),
         ("feedforward_dropped", " + self.acceleration_feedforward * reference.acceleration", "",
-         f"{DRIVEN}::test_the_engine_answers_like_python_controls_closed_loop"),
+         f"{DRIVEN}::test_the_simulator_answers_like_python_controls_closed_loop"),
         ("damping_halved", "2.0 * drive.servo.speed_damping", "drive.servo.speed_damping", SERVO),
         ("integral_gain_of_the_bandwidth", "bandwidth**2 * mass", "bandwidth * mass", SERVO),
         ("feedforward_of_the_car_alone", "servo.acceleration_feedforward * moving_mass(drive)",

@@ -131,7 +131,8 @@ def test_the_key_covers_every_module_that_a_task_runs() -> None:
     """Also those that only the tasks of one command import, and the presets."""
     covered = set(sweep_module.source_files())
     modules = ("prescribed_trip", "reduced_model.swing", "tuning.task", "modal.modes", "presets.paper_installations")
-    for name in (*(f"comprope_system.{name}" for name in modules), "comprope.rope.integration.newmark", "comprope.drive.s_curve"):
+    kernels = ("comprope.rope.integration.newmark", "comprope.drive.trajectory.s_curve")
+    for name in (*(f"comprope_system.{name}" for name in modules), *kernels):
         assert Path(str(importlib.import_module(name).__file__)) in covered, name
     assert model_path("tower50") in covered
 
