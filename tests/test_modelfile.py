@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from comprope.errors import InputError
 from comprope.quantities import quantities
+from comprope.rope.effects import REGISTRY
 from comprope.rope.model_file import dump, load, with_changes
 from comprope.rope.parameters import Base, Contact, Rope, Shaft, Sheave
 from comprope_system import presets
@@ -142,3 +143,12 @@ def test_the_model_is_frozen():
     assert isinstance(model, Base)
     with pytest.raises(ValueError, match="frozen"):
         model.sheave.mass = 1.0
+
+
+def test_the_order_of_effects_stays() -> None:
+    """It is that of the FMU's variables, whose value references hosts keep: a new effect comes last."""
+    built_in = [name for name, effect in REGISTRY.items() if not effect.source]
+    assert built_in == [
+        "air_drag", "shaft_airflow", "bending_hysteresis", "intrinsic_curvature", "building_sway", "attachment_offset",
+        "sheave_eccentricity", "bearing_friction", "guide_friction", "sheave_damper",
+    ]  # fmt: skip

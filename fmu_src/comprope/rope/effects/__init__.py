@@ -8,15 +8,14 @@ from pydantic import Field, create_model
 
 from ...quantities import Component
 from ..parameters import Base
-from . import (
-    air_drag,
-    bending_hysteresis,
-    end_displacement,
-    intrinsic_curvature,
-    sheave_eccentricity,
-    sheave_friction,
-    user_effects,
-)
+
+# isort: off
+# The order of these modules is that of the effects in the parameter vector and among the FMU's variables, whose value
+# references hosts keep: a new effect comes last.
+from . import air_drag, bending_hysteresis, intrinsic_curvature, end_displacement, sheave_eccentricity, sheave_friction
+# isort: on
+
+from . import user_effects
 from .base import HOOKS, INSTRUMENT, REGISTRY, Effect, acts, register
 
 __all__ = [
