@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from fmpy import read_model_description
 
 import comprope_system
 from comprope.rope.effects import REGISTRY
@@ -204,6 +205,11 @@ def test_an_improved_model_is_one_result(improved, tmp_path):
     assert list(improved.to_dataframe()["step"]) == [one.name for one in improved.steps]
     improved.save_model(tmp_path / "new.toml")
     assert load(tmp_path / "new.toml") == improved.model
+    improved.save_fmus(tmp_path / "fmus")
+    assert {path.name for path in (tmp_path / "fmus").iterdir()} == {"CompensationRope.fmu", "ElevatorDrive.fmu"}
+    described = read_model_description(str(tmp_path / "fmus" / "CompensationRope.fmu")).modelVariables
+    (start,) = (float(one.start) for one in described if one.name == "effects.sheave_eccentricity.eccentricity")
+    assert start == improved.model.effects.sheave_eccentricity.eccentricity
     improved.save_html(tmp_path / "page.html")
     assert "Stepwise selection" in (tmp_path / "page.html").read_text("utf-8")
 

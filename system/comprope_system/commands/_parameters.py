@@ -14,8 +14,10 @@ CAMPAIGN = Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder with 
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result.")]
 REPORT = Annotated[Path | None, typer.Option(metavar="F.html", help="Write an HTML report with figures.")]
 NEW_MODEL = Annotated[Path | None, typer.Option(metavar="MODEL.toml", help="Write the new model.")]
+FMU = Annotated[Path | None, typer.Option("--fmu", metavar="DIR", help="Write the FMUs of the new model and of the drive.")]
 JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Number of processes; default one per core.")]
 EXECUTOR = Annotated[str | None, typer.Option(metavar="dask://HOST:PORT", help="Run on a Dask cluster.")]
+ROPE_FMU = "CompensationRope.fmu"  # in the folder of --fmu
 
 
 def with_options(command: Callable[..., None]) -> Callable[..., None]:

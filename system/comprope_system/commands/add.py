@@ -6,20 +6,26 @@ import typer
 
 import comprope_system
 
-from ._parameters import CAMPAIGN, JOBS, JSON, NEW_MODEL, REPORT
+from ._parameters import CAMPAIGN, FMU, JOBS, JSON, NEW_MODEL, REPORT, ROPE_FMU
 from ._terminal import OutputFile, finish, progress_display, require_files
 
 EFFECT = Annotated[str, typer.Argument(metavar="EFFECT", help="Such as air_drag; an instrument's as sensor_gain.cw_low.")]
 
 
 def add(
-    campaign: CAMPAIGN, effect: EFFECT, out: NEW_MODEL = None, json: JSON = None, report: REPORT = None, jobs: JOBS = None
+    campaign: CAMPAIGN,
+    effect: EFFECT,
+    out: NEW_MODEL = None,
+    json: JSON = None,
+    report: REPORT = None,
+    fmu: FMU = None,
+    jobs: JOBS = None,
 ) -> None:
     """Add an effect to the campaign's model, fitted on its fit runs, and report the error before and after.
 
     An effect that the model has already is refitted. The first lines of the new model file say what was fitted.
     """
-    require_files(OutputFile(json), OutputFile(out), OutputFile(report, "page"))
+    require_files(OutputFile(json), OutputFile(out), OutputFile(report, "page"), OutputFile(fmu and fmu / ROPE_FMU))
     with progress_display() as progress:
         result = comprope_system.add(campaign, effect, jobs=jobs, progress=progress)
-    finish(result, (out, result.save_model), (json, result.save_json), (report, result.save_html))
+    finish(result, (out, result.save_model), (json, result.save_json), (report, result.save_html), (fmu, result.save_fmus))

@@ -2,16 +2,23 @@
 
 import comprope_system
 
-from ._parameters import CAMPAIGN, JOBS, JSON, NEW_MODEL, REPORT
+from ._parameters import CAMPAIGN, FMU, JOBS, JSON, NEW_MODEL, REPORT, ROPE_FMU
 from ._terminal import OutputFile, finish, progress_display, require_files
 
 
-def improve(campaign: CAMPAIGN, out: NEW_MODEL = None, json: JSON = None, report: REPORT = None, jobs: JOBS = None) -> None:
+def improve(
+    campaign: CAMPAIGN,
+    out: NEW_MODEL = None,
+    json: JSON = None,
+    report: REPORT = None,
+    fmu: FMU = None,
+    jobs: JOBS = None,
+) -> None:
     """Diagnose and add until nothing is missing or no known effect helps, then remove effects that are not needed.
 
     Stepwise selection and backward elimination. Reports the share of each effect in the reduction of the error.
     """
-    require_files(OutputFile(json), OutputFile(out), OutputFile(report, "page"))
+    require_files(OutputFile(json), OutputFile(out), OutputFile(report, "page"), OutputFile(fmu and fmu / ROPE_FMU))
     with progress_display() as progress:
         result = comprope_system.improve(campaign, jobs=jobs, progress=progress)
-    finish(result, (out, result.save_model), (json, result.save_json), (report, result.save_html))
+    finish(result, (out, result.save_model), (json, result.save_json), (report, result.save_html), (fmu, result.save_fmus))

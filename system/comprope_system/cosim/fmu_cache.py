@@ -16,6 +16,7 @@ from comprope.drive.cosimulation import ENTRY as DRIVE_ENTRY
 from comprope.drive.cosimulation import interface as drive_interface
 from comprope.fmi.model_interface import ModelInterface
 from comprope.fmi.package import Origin, build
+from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, bundle, load, validated
 from comprope.rope.simulator.cosimulation import ENTRY as ROPE_ENTRY
 from comprope.rope.simulator.cosimulation import interface as rope_interface
@@ -44,6 +45,13 @@ def drive_fmu() -> Path:
 def rope_fmu(sensors: int, own_effects: tuple[str, ...] = ()) -> Path:
     """Path of the FMU of a rope with this number of sensors and these user-defined effects, with the installed code."""
     return locate(_rope_recipe(sensors, own_effects))
+
+
+def build_fmus(model: RopeModel, folder: Path) -> list[Path]:
+    """The FMUs of the rope, whose parameters start at the values of the model, and of the drive, written into a folder."""
+    rope = Recipe(rope_interface(model), "rope", ROPE_ENTRY, bundle(model))
+    drive = Recipe(drive_interface(), "drive", DRIVE_ENTRY)
+    return [build(one.interface, [one.package], one.entry, folder, _origin(), one.data) for one in (rope, drive)]
 
 
 def locate(recipe: Recipe, dist: Path | None = None) -> Path:

@@ -63,6 +63,12 @@ class _ModelResult(Result):
         """Write the new model file, whose first lines say what was fitted, completely or not at all."""
         dump(self.model, path, file_comment(self.updated))
 
+    def save_fmus(self, folder: str | Path) -> None:
+        """Write CompensationRope.fmu, whose parameters start at the values of the new model, and ElevatorDrive.fmu."""
+        from ...cosim.fmu_cache import build_fmus
+
+        build_fmus(self.model, Path(folder))
+
 
 @dataclass(frozen=True, repr=False)
 class AddResult(_ModelResult):
