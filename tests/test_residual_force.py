@@ -5,6 +5,7 @@ which it bends for some of the force; they are judged on data left out, and so s
 """
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,8 +20,13 @@ from comprope_system.identification.hypotheses.plant_parameters import PLANT_PAR
 from comprope_system.identification.prediction import replay
 from comprope_system.identification.prediction.parameter_point import ParameterPoint, collect_predictions, submit_replays
 from comprope_system.identification.reporting import figures, tables
-from comprope_system.identification.residuals.force_locations import KEY, PROBE, with_probe
-from comprope_system.identification.residuals.input_estimation import estimate_residual_force
+from comprope_system.identification.residuals.force_locations import KEY, PROBE, force_locations, with_probe
+from comprope_system.identification.residuals.input_estimation import (
+    ForceEstimate,
+    InputEstimation,
+    TimeHistory,
+    estimate_residual_force,
+)
 from comprope_system.identification.residuals.regularised_deconvolution import deconvolve, prior_root
 from comprope_system.parallel.executors import threads
 from comprope_system.report.json_output import plain
@@ -160,21 +166,29 @@ def test_what_it_follows_is_told(request, hidden, follows):
     assert len(tables.force_table(force).rows) == len(told)
 
 
-def test_the_pictures_show_each_share_at_its_location_and_the_force_beside_the_car(pushed):
-    campaign, force = pushed
+def test_the_pictures_show_each_share_at_its_location_and_the_force_beside_the_car():
+    time = np.arange(0.0, 6.0, 0.1)
+    runs = [
+        SimpleNamespace(file=f"{k}.csv", trip=SimpleNamespace(position=lambda t, k=k: 2.0 + k * np.sin(t))) for k in range(1, 4)
+    ]
+    campaign = SimpleNamespace(runs=[*runs, SimpleNamespace(file="held_out.csv")])
+    histories = [
+        {run.file: TimeHistory(time, size * np.cos(k * time)) for k, run in enumerate(runs, 1)} for size in (3.0, 5.0, 7.0)
+    ]
+    places = force_locations(virtual_elevator.MODEL)
+    found = [ForceEstimate(*one) for one in zip(places[3:6], (0.8, 0.5, 0.1), histories, strict=True)]
+    force = InputEstimation(tuple(found), ())
     (bars,) = figures.force_bars(force).axes
     names = {y: text.get_text() for y, text in zip(bars.get_yticks(), bars.get_yticklabels(), strict=True)}
     shown = {names[bar.get_y() + 0.5 * bar.get_height()]: bar.get_width() for bar in bars.patches}
-    assert shown == pytest.approx({one.location.name: 100.0 * one.share for one in force.estimates})
-    assert names[max(names)] == force.estimates[0].location.name  # the best one on top
-    runs = campaign.of_role("fit")
+    assert shown == pytest.approx({one.location.name: 100.0 * one.share for one in found})
+    assert names[max(names)] == places[3].name  # the best one on top
     panels = figures.force_histories(campaign, force).axes
     assert len(panels) == 2 * len(runs)
-    assert [axes.get_title(loc="left") for axes in panels[: len(runs)]] == [run.file for run in runs]
-    for run, axes, beside in zip(runs, panels[: len(runs)], panels[len(runs) :], strict=True):
-        history = force.estimates[0].histories[run.file]
-        assert np.array_equal(axes.lines[0].get_xydata(), np.column_stack([history.time, history.value]))
-        assert np.allclose(beside.lines[0].get_ydata(), run.trip.position(history.time)) and "m" in axes.get_ylabel()
+    for run, axes, beside in zip(runs, panels[:3], panels[3:], strict=True):
+        assert axes.get_title(loc="left") == run.file and f"[{places[3].unit}]" in axes.get_ylabel()
+        assert np.array_equal(axes.lines[0].get_xydata(), np.column_stack([time, histories[0][run.file].value]))
+        assert np.array_equal(beside.lines[0].get_ydata(), run.trip.position(time)) and "[m]" in beside.get_ylabel()
 
 
 def test_the_estimate_of_a_known_course():
@@ -192,6 +206,6 @@ def test_the_estimate_of_a_known_course():
     assert wrong.held_out_chi_square > 0.9 * float(r @ r)
 
 
-def test_the_instrument_is_only_lent():
+def test_the_probe_is_registered_only_temporarily():
     """No model, ranking or schema has it afterwards."""
     assert "residual_force" not in REGISTRY
