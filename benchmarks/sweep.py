@@ -14,14 +14,14 @@ from pathlib import Path
 
 from comprope_system.parallel.executors import workers
 from comprope_system.parallel.sweep import Case, sweep, values
-from comprope_system.presets.paper_installations import TOWER, with_sheave
+from comprope_system.presets.paper_installations import TOWER, sheave_changes
 from comprope_system.studies.swing import swing, swing_case
 
 
 def cases(runs: int, distance: float) -> list[Case]:
     """Trips over `distance` [m] with sheaves of 60 to 240 kg."""
     masses = [60.0 + 180.0 * k / max(1, runs - 1) for k in range(runs)]
-    return [swing_case(TOWER, distance, with_sheave(TOWER, mass)) for mass in masses]
+    return [swing_case(TOWER, distance, sheave_changes(TOWER, mass)) for mass in masses]
 
 
 def timed(chosen: list[Case], jobs: int) -> tuple[float, list[dict[str, object]]]:

@@ -12,11 +12,11 @@ import pytest
 from comprope.rope.model_file import load
 from comprope.rope.simulator.rope import CompensationRope
 from comprope_system import cli
-from comprope_system.prescribed_trip import record, side_shape, trip_of
+from comprope_system.prescribed_trip import jerk_limited_trip, record_trip, side_shape
 from comprope_system.presets import model_path
 from comprope_system.report.page import Animation, Section, save_page
-from comprope_system.simulation.animation.encoding import Trace, film, packed, unpacked
-from comprope_system.simulation.animation.frames import ARC, DOWN, MOST, POINTS, Camera, Frame, look
+from comprope_system.simulation.animation.encoding import Trace, animation_data, decode_array, encode_array
+from comprope_system.simulation.animation.frames import ARC, DEPTHS, MAX_FRAMES, POINTS, Frame, FrameRecorder, frame_of
 
 from .virtual_elevator import MODEL
 
@@ -42,23 +42,23 @@ def trip(tmp_path_factory):
 
 def test_the_film_shows_what_the_sensors_saw(trip):
     _, shown, table = trip
-    ends, sides, axle = (unpacked(shown[name]) for name in ("ends", "sides", "axle"))
+    ends, sides, axle = (decode_array(shown[name]) for name in ("ends", "sides", "axle"))
     at = table.iloc[[round(k * shown["interval"] / 0.02) for k in range(shown["frames"])]]
     assert np.allclose(ends[:, 0], at["car_position"], atol=1e-3)  # 12 m in 32767 parts, twice
     assert np.allclose(axle, at["sheave_displacement"], atol=1e-6)
     for k, sensor in enumerate(shown["sensors"]):
         side = ("car", "counterweight").index(sensor["side"])
-        heights = ends[:, side, None] + unpacked(shown["down"]) * (axle[:, None] - shown["pit"] - ends[:, side, None])
+        heights = ends[:, side, None] + decode_array(shown["down"]) * (axle[:, None] - shown["pit"] - ends[:, side, None])
         seen = [np.interp(-sensor["height"], -h, y, left=np.nan) for h, y in zip(heights, sides[:, side], strict=True)]
         assert np.array_equal(np.isnan(seen), at[sensor["name"]].isna())
         # Straight between points where the sensor is a cubic: 0.2 m at a curvature of up to 0.2/m is 1 mm.
         assert np.nanmax(np.abs(seen - at[sensor["name"]].to_numpy()), initial=0.0) < 1e-3
-        assert np.allclose(unpacked(shown["traces"][k]["value"]), 1e3 * table[sensor["name"]], atol=2e-3, equal_nan=True)
+        assert np.allclose(decode_array(shown["traces"][k]["value"]), 1e3 * table[sensor["name"]], atol=2e-3, equal_nan=True)
 
 
 def test_a_trip_at_rest_departs_from_rest_by_nothing(trip):
     _, shown, table = trip
-    swing = unpacked(shown["sides"]) - unpacked(shown["rest"])
+    swing = decode_array(shown["sides"]) - decode_array(shown["rest"])
     still = round(table["time"][table["car_velocity"] > 1e-6].iloc[0] / shown["interval"])
     assert np.nanmax(np.abs(swing[: still - 1])) < 1e-5
     assert 2e-4 < np.nanmax(np.abs(swing)) < 0.05  # and once it moves it swings, by millimetres
@@ -71,47 +71,49 @@ def test_the_report_leaves_the_numbers_as_they_are(trip, tmp_path):
 
 
 def test_the_rope_round_the_sheave_keeps_off_its_groove():
-    model, trip = MODEL, trip_of(6.0, 2.0, 1.0, 1.0, 1.0)
-    camera = []
-    record(model, trip, 3.0, lambda rope: camera.append(look(rope)) or np.zeros(1))
-    for one in camera:
+    model, trip = MODEL, jerk_limited_trip(6.0, 2.0, 1.0, 1.0, 1.0)
+    recorder = []
+    record_trip(model, trip, 3.0, lambda rope: recorder.append(frame_of(rope)) or np.zeros(1))
+    for one in recorder:
         away = np.hypot(one.arc[0], one.arc[1] - one.axle)
         # Chords between nodes cut l^2 / (8 R) of the circle; the rope sinks in by less than 0.1 mm.
         assert away.min() > model.sheave.radius - model.rope.element_length**2 / (8.0 * model.sheave.radius) - 1e-4
         assert abs(one.arc[0][np.argmin(one.arc[1])]) < 0.05  # and is lowest below the axle
     # The sheave is turned by the rope that passes it: as far as the car went, over the radius, less a little slip.
-    assert camera[-1].angle == pytest.approx((camera[-1].ends[0] - 1.0) / model.sheave.radius, rel=0.01)
+    assert recorder[-1].angle == pytest.approx((recorder[-1].ends[0] - 1.0) / model.sheave.radius, rel=0.01)
 
 
 def test_packing_loses_less_than_a_line_is_wide():
     values = np.array([[0.0, -3.0, 2.99999], [np.nan, 1e-9, np.inf]])
-    found = unpacked(packed(values))
+    found = decode_array(encode_array(values))
     assert np.array_equal(np.isnan(found), ~np.isfinite(values))
     assert np.nanmax(np.abs(found[np.isfinite(values)] - values[np.isfinite(values)])) <= 0.5 * 3.0 / 32767
-    assert np.array_equal(unpacked(packed([0.0, 0.0])), [0.0, 0.0])
+    assert np.array_equal(decode_array(encode_array([0.0, 0.0])), [0.0, 0.0])
 
 
 @pytest.mark.parametrize(
     ("step", "total", "interval"), [(0.01, 500, 0.05), (0.05, 100, 0.05), (0.1, 50, 0.1), (0.001, 600_000, 0.5)]
 )
 def test_a_camera_takes_20_frames_a_second_and_never_too_many(monkeypatch, step, total, interval):
-    monkeypatch.setattr("comprope_system.simulation.animation.frames.look", lambda rope: rope)
-    camera = Camera(lambda: "frame", step)
+    monkeypatch.setattr("comprope_system.simulation.animation.frames.frame_of", lambda rope: rope)
+    recorder = FrameRecorder(lambda: "frame", step)
     for count in range(total + 1):
-        camera(count, total)
-    assert camera.interval == pytest.approx(interval)
-    assert len(camera.frames) == total // round(interval / step) + 1 <= MOST + 1
+        recorder(count, total)
+    assert recorder.interval == pytest.approx(interval)
+    assert len(recorder.frames) == total // round(interval / step) + 1 <= MAX_FRAMES + 1
 
 
 def test_the_longest_page_stays_below_2_mb(tmp_path, monkeypatch):
     """As many frames as there can be, of noise, with the traces of eight sensors."""
     random = np.random.default_rng(1)
-    frames = [Frame(random.random(2), random.random((2, POINTS)), random.random((2, ARC)), 0.0, 0.0) for _ in range(MOST + 1)]
+    frames = [
+        Frame(random.random(2), random.random((2, POINTS)), random.random((2, ARC)), 0.0, 0.0) for _ in range(MAX_FRAMES + 1)
+    ]
     monkeypatch.setattr(
-        "comprope_system.simulation.animation.encoding.at_rest", lambda model, frames: [one.sides for one in frames]
+        "comprope_system.simulation.animation.encoding.rest_shapes", lambda model, frames: [one.sides for one in frames]
     )
     traces = [Trace(str(k), "mm", random.random(2400), random.random(2400)) for k in range(12)]
-    moving = Animation("trip", film(MODEL, frames, 0.05, traces))
+    moving = Animation("trip", animation_data(MODEL, frames, 0.05, traces))
     save_page(tmp_path / "long.html", "long", "", [Section("a", "A", [moving])])
     assert (tmp_path / "long.html").stat().st_size < 1.75e6  # 0.25 MB are left for the picture
 
@@ -127,10 +129,10 @@ def test_a_page_needs_no_network(trip):
 def test_a_side_is_drawn_from_its_end_to_the_axle_and_finely_where_it_bends():
     """Straight lines between the points differ from the rope by less than the width of a line, also where it bends onto the sheave."""
     rope = CompensationRope(load(model_path("tower50")))
-    rope.settle(20.0, 30.0)
+    rope.solve_equilibrium(20.0, 30.0)
     axle = -rope.state.q[rope.n]
-    for points, side, end in zip(look(rope).sides, ("car", "counterweight"), (20.0, 30.0), strict=True):
-        heights = end + DOWN * (axle - end)
+    for points, side, end in zip(frame_of(rope).sides, ("car", "counterweight"), (20.0, 30.0), strict=True):
+        heights = end + DEPTHS * (axle - end)
         assert (heights[0], heights[-1]) == pytest.approx((end, axle))
         between = np.linspace(axle + 1e-3, end - 1e-3, 4000)
         drawn = np.interp(between, heights[::-1], points[::-1])

@@ -13,14 +13,14 @@ from comprope_system.modal import linearisation
 from comprope_system.modal.hanging_string import HangingString, mass_for_period, side_string
 from comprope_system.modal.linearisation import _interpreted, linearise
 from comprope_system.modal.modes import Modes, modes
-from comprope_system.presets.paper_installations import BUILDING, TOWER, building, with_sheave
+from comprope_system.presets.paper_installations import BUILDING, TOWER, installation, sheave_changes
 
 CAR = 22.0
 
 
 @pytest.fixture(scope="module")
 def found() -> Modes:
-    return modes(building(BUILDING), CAR, 12)
+    return modes(installation(BUILDING), CAR, 12)
 
 
 def test_a_string_under_even_tension_has_the_textbook_period() -> None:
@@ -49,7 +49,7 @@ def test_the_travel_time_is_the_integral_of_slowness() -> None:
 
 def test_periods_agree_with_the_hanging_string(found: Modes) -> None:
     """Bending shortens a mode by about its share (pi EI / T L^2) of energy, 1e-5 here; the higher ones by some 1e-4."""
-    model = building(BUILDING)
+    model = installation(BUILDING)
     for mode in found.modes:
         assert mode.place in ("car", "counterweight")
         exact = side_string(model, CAR, mode.place).period(mode.half_waves)
@@ -57,17 +57,17 @@ def test_periods_agree_with_the_hanging_string(found: Modes) -> None:
 
 
 def test_the_paper_period_of_10_27_s(found: Modes) -> None:
-    model = building(BUILDING)
+    model = installation(BUILDING)
     assert found.first().period == pytest.approx(10.27, abs=0.12)  # preset: 119 kg from travel time without wrap and pit
     identified = mass_for_period(model, CAR, 10.27)
     assert identified == pytest.approx(119.0, abs=3.0)
-    assert side_string(building(BUILDING, with_sheave(BUILDING, identified)), CAR).wkb_period() == pytest.approx(10.27)
+    assert side_string(installation(BUILDING, sheave_changes(BUILDING, identified)), CAR).wkb_period() == pytest.approx(10.27)
 
 
 def test_modes_are_ordered_and_orthogonal(found: Modes) -> None:
     periods = [mode.period for mode in found.modes]
     assert periods == sorted(periods, reverse=True)
-    node = building(BUILDING).rope.mass_per_length * building(BUILDING).rope_length / (len(found.heights) - 1)
+    node = installation(BUILDING).rope.mass_per_length * installation(BUILDING).rope_length / (len(found.heights) - 1)
     first, second = (found.first(half_waves=k).shape for k in (1, 2))
     assert abs(node * (first[:-1] * second[:-1]).sum()) < 1e-3 * node * (first[:-1] ** 2).sum()
     with pytest.raises(LookupError):
@@ -75,14 +75,14 @@ def test_modes_are_ordered_and_orthogonal(found: Modes) -> None:
 
 
 def test_both_sides_alike_with_the_car_half_way() -> None:
-    slowest = modes(building(TOWER), 25.0, 2).modes
+    slowest = modes(installation(TOWER), 25.0, 2).modes
     assert slowest[0].period == pytest.approx(slowest[1].period, rel=1e-4)  # the sheave couples them a little
     assert [mode.place for mode in slowest] == ["both", "both"]
 
 
 def test_the_stiffness_is_the_derivative_of_the_forces() -> None:
     """Along random directions, without friction, whose stand-in for sticking is no derivative by position."""
-    rope = CompensationRope(building(TOWER, {"shaft.height": 2.0, "contact.friction_coefficient": 0.0}))
+    rope = CompensationRope(installation(TOWER, {"shaft.height": 2.0, "contact.friction_coefficient": 0.0}))
     rope.solve_equilibrium(0.7, 1.3)
     small, random = linearise(rope), np.random.default_rng(1)
     assert abs(small.stiffness - small.stiffness.T).max() < 1e-9 * abs(small.stiffness).max()
@@ -106,7 +106,7 @@ def forces(rope: CompensationRope, moved: np.ndarray) -> np.ndarray:
 
 def test_free_vibration_of_the_full_model_has_the_period() -> None:
     """The 50 m tower, end moved by a millimetre and back within a quarter period: zero crossings of the swing that is left."""
-    model = building(TOWER)
+    model = installation(TOWER)
     period = modes(model, 10.0, 6).first().period
     rope = CompensationRope(model)
     rope.solve_equilibrium(10.0, 40.0)
@@ -119,8 +119,8 @@ def test_free_vibration_of_the_full_model_has_the_period() -> None:
         seen.append(rope.lateral_displacement("counterweight", 19.0)[0])
     values = np.array(seen[100:])
     signal = values - np.linspace(*_ends(values, round(period / dt)), len(values))
-    up = np.flatnonzero((signal[:-1] < 0.0) & (signal[1:] >= 0.0))
-    assert np.ptp(up) * dt / (len(up) - 1) == pytest.approx(period, rel=0.02)
+    trip_up = np.flatnonzero((signal[:-1] < 0.0) & (signal[1:] >= 0.0))
+    assert np.ptp(trip_up) * dt / (len(trip_up) - 1) == pytest.approx(period, rel=0.02)
 
 
 def _ends(values: np.ndarray, width: int) -> tuple[float, float]:
@@ -129,7 +129,7 @@ def _ends(values: np.ndarray, width: int) -> tuple[float, float]:
 
 def test_rope_and_sheave_turn_together(monkeypatch: pytest.MonkeyPatch) -> None:
     """Friction at rest holds: the lowest node moves along the groove as the rim does, and a softer grip changes no period."""
-    model = building(TOWER, {"rope.element_length": 0.1})
+    model = installation(TOWER, {"rope.element_length": 0.1})
     found = modes(model, 10.0, 10)
     lowest = int(np.argmin(found.heights))
     for mode in found.modes:

@@ -9,8 +9,8 @@ import pytest
 from comprope.errors import InputError
 from comprope.rope.integration.state import State
 from comprope.rope.simulator.rope import CompensationRope
-from comprope_system.prescribed_trip import record, side_shape, trip_of
-from comprope_system.presets.paper_installations import BUILDING, TOWER, building, table, up, with_sheave
+from comprope_system.prescribed_trip import jerk_limited_trip, record_trip, side_shape
+from comprope_system.presets.paper_installations import BUILDING, TOWER, installation, sheave_changes, table, trip_up
 from comprope_system.report.page import Picture, Section, Table, save_page, save_pictures
 from comprope_system.report.plot_style import panels
 from comprope_system.studies import fig4, fig5, fig6, fig7, fig8, workflow
@@ -25,9 +25,9 @@ COARSE = {"rope.element_length": 0.1, "solver.step": 0.01}
 
 
 def test_fig4_displacement_is_small_from_75_percent_on_and_grows_below() -> None:
-    nominal = building(TOWER).sheave.mass
+    nominal = installation(TOWER).sheave.mass
     offsets = np.array(
-        [fig4.static_offset({"model": table(TOWER, with_sheave(TOWER, f * nominal))}) for f in (0.1, 0.5, 0.75, 1.0)]
+        [fig4.static_offset({"model": table(TOWER, sheave_changes(TOWER, f * nominal))}) for f in (0.1, 0.5, 0.75, 1.0)]
     )
     relative = fig4.relative(offsets)[:, 0]
     assert relative[0] == 1.0
@@ -38,8 +38,8 @@ def test_fig4_displacement_is_small_from_75_percent_on_and_grows_below() -> None
 
 def test_fig5_frequency_follows_the_shortening_side() -> None:
     values = fig5.up_trip(swing_case(TOWER, 50.0))
-    facts = fig5.STUDY.evaluate(StudyOptions(), [values]).facts
-    assert [one.verdict for one in facts] == ["yes", "yes"]
+    comparisons = fig5.STUDY.evaluate(StudyOptions(), [values]).comparisons
+    assert [one.verdict for one in comparisons] == ["yes", "yes"]
 
 
 def test_fig5_frequencies_of_a_chirp_on_a_drift() -> None:
@@ -58,7 +58,7 @@ def test_fig6_peak_by_parabola() -> None:
 def test_fig6_an_oscillator_peaks_one_jerk_time_after_its_period() -> None:
     """sin(w D / 4) sin(w (D / 2 - Tj) / 2) is largest at D = period + Tj, exactly for profiles with a plateau."""
     distance = oscillator_peak(10.27)
-    assert up(BUILDING, distance).duration == pytest.approx(10.27 + 1.1 / 0.93, abs=0.05)
+    assert trip_up(BUILDING, distance).duration == pytest.approx(10.27 + 1.1 / 0.93, abs=0.05)
 
 
 def test_fig6_swing_in_the_building_against_an_independent_simulation() -> None:
@@ -90,12 +90,12 @@ def test_fig8_the_fits_tell_an_exponential_from_a_power_law() -> None:
 
 
 def test_fig8_trips_are_tuned_to_the_period() -> None:
-    assert up(BUILDING, fig8.tuned_distance(119.0)).duration == pytest.approx(10.35, abs=0.05)
+    assert trip_up(BUILDING, fig8.tuned_distance(119.0)).duration == pytest.approx(10.35, abs=0.05)
     assert fig8.tuned_distance(60.0) > fig8.tuned_distance(190.0)
 
 
 def test_design_least_mass_keeps_the_limit() -> None:
-    model = building(TOWER, COARSE)
+    model = installation(TOWER, COARSE)
     trip = {"distance": 6.0, "speed": 2.5, "acceleration": 0.8, "jerk": 0.8}
     found = least_mass(model, trip, 0.003)
     runs = dict(found.runs)
@@ -133,15 +133,15 @@ def test_pages_escape_texts(tmp_path: Path) -> None:
 
 
 def test_a_ride_starts_at_rest_and_ends_where_the_trip_does() -> None:
-    model = building(TOWER, COARSE)
-    trip = trip_of(3.0, 2.5, 0.8, 0.8)
-    _, seen = record(model, trip, trip.end_time + 0.2, lambda rope: np.array([-rope.state.q[0], -rope.state.q[rope.n - 1]]))
+    model = installation(TOWER, COARSE)
+    trip = jerk_limited_trip(3.0, 2.5, 0.8, 0.8)
+    _, seen = record_trip(model, trip, trip.end_time + 0.2, lambda rope: np.array([-rope.state.q[0], -rope.state.q[rope.n - 1]]))
     assert seen[0] == pytest.approx([0.0, 50.0])
     assert seen[-1] == pytest.approx([3.0, 47.0])
 
 
 def test_side_shapes_agree_with_the_sensors() -> None:
-    rope = CompensationRope(building(TOWER))
+    rope = CompensationRope(installation(TOWER))
     rope.solve_equilibrium(20.0, 30.0)
     for side in ("car", "counterweight"):
         heights = np.array([0.5, 7.0, 19.0])

@@ -22,7 +22,7 @@ INTERVAL = 0.02  # s between samples
 START = 0.5  # s at rest before a trip
 
 
-def trip_of(distance: float, speed: float, acceleration: float, jerk: float, origin: float = 0.0) -> SCurve:
+def jerk_limited_trip(distance: float, speed: float, acceleration: float, jerk: float, origin: float = 0.0) -> SCurve:
     """The trip up over `distance` [m] within the limits of speed [m/s], acceleration [m/s2] and jerk [m/s3]."""
     limits = Profile(speed=speed, acceleration=acceleration, jerk=jerk)
     return plan_s_curve(limits, origin, origin + distance, START)
@@ -41,7 +41,9 @@ def _moments(motion: TrajectoryPoint, height: float, radius: float) -> Floats:
     return np.array([[-x, -v, -a], [-radius, 0.0, 0.0], [x - height, v, a], [radius, 0.0, 0.0]])
 
 
-def ride(rope: CompensationRope, trip: SCurve | ReferenceTrajectory, until: float, interval: float = INTERVAL) -> Iterator[float]:
+def simulate_trip(
+    rope: CompensationRope, trip: SCurve | ReferenceTrajectory, until: float, interval: float = INTERVAL
+) -> Iterator[float]:
     """Solve static equilibrium at the start of the trip and simulate it; yields the time [s] of each sample, 0 first.
 
     Raises `SimulationError` where a step cannot be saved.
@@ -54,13 +56,13 @@ def ride(rope: CompensationRope, trip: SCurve | ReferenceTrajectory, until: floa
         yield (k + 1) * interval
 
 
-def record(
-    model: Base, trip: SCurve | ReferenceTrajectory, until: float, look: Callable[[CompensationRope], Floats]
+def record_trip(
+    model: Base, trip: SCurve | ReferenceTrajectory, until: float, evaluate: Callable[[CompensationRope], Floats]
 ) -> tuple[Floats, Floats]:
-    """Times (n,) and the values `look` returns for the rope at each of them (n, ...)."""
+    """Times (n,) and the values `evaluate` returns for the rope at each of them (n, ...)."""
     rope = CompensationRope(model)
-    seen = [(time, look(rope)) for time in ride(rope, trip, until)]
-    return np.array([time for time, _ in seen]), np.array([values for _, values in seen])
+    samples = [(time, evaluate(rope)) for time in simulate_trip(rope, trip, until)]
+    return np.array([time for time, _ in samples]), np.array([values for _, values in samples])
 
 
 def side_shape(rope: CompensationRope, side: str, heights: Floats) -> Floats:

@@ -9,7 +9,7 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, load, validated, with_changes
 from comprope.rope.parameters import Base
 
-from ..prescribed_trip import trip_of
+from ..prescribed_trip import jerk_limited_trip
 from . import model_path
 
 TOWER, BUILDING = "tower50", "building200"
@@ -24,12 +24,12 @@ def _loaded(name: str) -> RopeModel:
     return load(model_path(name))
 
 
-def building(name: str, changes: Mapping[str, Any] | None = None) -> RopeModel:
+def installation(name: str, changes: Mapping[str, Any] | None = None) -> RopeModel:
     """A preset or model file with some values changed."""
     return with_changes(_loaded(name), changes or {})
 
 
-def with_sheave(model: Base | str, mass: float) -> dict[str, float]:
+def sheave_changes(model: Base | str, mass: float) -> dict[str, float]:
     """Changes that give a building a sheave of another mass [kg], with inertia in proportion."""
     sheave = (_loaded(model) if isinstance(model, str) else model).sheave
     return {"sheave.mass": mass, "sheave.inertia": sheave.inertia * mass / sheave.mass}
@@ -41,16 +41,16 @@ def limits(name: str, distance: float) -> dict[str, float]:
     return {"distance": distance, "speed": speed, "acceleration": acceleration, "jerk": jerk}
 
 
-def up(name: str, distance: float) -> SCurve:
+def trip_up(name: str, distance: float) -> SCurve:
     """The trip of a case."""
-    return trip_of(**limits(name, distance))
+    return jerk_limited_trip(**limits(name, distance))
 
 
 def table(name: str, changes: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """A building as part of a case: the complete model, so that workers need no file and a changed file is a different case."""
-    return as_table(building(name, changes))
+    return as_table(installation(name, changes))
 
 
-def model_in(case: Mapping[str, Any], changes: Mapping[str, Any] | None = None) -> RopeModel:
+def model_of_case(case: Mapping[str, Any], changes: Mapping[str, Any] | None = None) -> RopeModel:
     """The model of a case, with some values changed."""
     return with_changes(validated(case["model"], "case"), changes or {})

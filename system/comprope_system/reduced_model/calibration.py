@@ -12,7 +12,7 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, validated
 from comprope.rope.simulator.rope import CompensationRope
 
-from ..prescribed_trip import record, side_shape
+from ..prescribed_trip import record_trip, side_shape
 from .string_dynamics import FRICTION_TRANSITION_SPEED, StringParameters, rest_shape, string_parameters
 
 Floats = NDArray[np.float64]
@@ -38,7 +38,7 @@ def calibrated_string(model: RopeModel) -> StringParameters:
     def evaluate(full: CompensationRope) -> Floats:
         return np.array([side_shape(full, side, heights) for side in ("car", "counterweight")])
 
-    times, samples = record(low, trip, trip.end_time + 1.0, evaluate)
+    times, samples = record_trip(low, trip, trip.end_time + 1.0, evaluate)
     motions = [trip.at(time) for time in times]
     car = np.array([one.position for one in motions])
     speed, pull = np.array([one.velocity for one in motions]), np.array([one.acceleration for one in motions])

@@ -14,7 +14,7 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.simulator.rope import CompensationRope
 
 from ..modal.hanging_string import side_string
-from ..prescribed_trip import record, side_shape
+from ..prescribed_trip import record_trip, side_shape
 from .finite_elements import ELEMENTS, nodes
 from .hoist_bounce import HoistBounce
 from .sampled_motion import SampledMotion, sample_motion
@@ -125,7 +125,7 @@ def full_model_swing(
         ends = {"car": -q[0], "counterweight": -q[n - 1]}
         return np.array([side_shape(rope, side, axle + READ_POSITIONS * (ends[side] - axle)) for side in SIDES])
 
-    time, samples = record(model, trajectory, trajectory.end_time + observation, evaluate)
+    time, samples = record_trip(model, trajectory, trajectory.end_time + observation, evaluate)
     car = np.array([trajectory.at(one).position for one in time])
     traces, found = {"time": time}, []
     for k, side in enumerate(SIDES):

@@ -61,10 +61,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class Animation:
-    """An animation (see `simulation.animation.encoding.film`) with a name and a caption."""
+    """An animation (see `simulation.animation.encoding.animation_data`) with a name and a caption."""
 
     name: str
-    film: dict[str, Any]
+    animation_data: dict[str, Any]
     caption: str = ""
 
 

@@ -13,7 +13,7 @@ from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import validated, with_changes
 
-from ..presets.paper_installations import with_sheave
+from ..presets.paper_installations import sheave_changes
 from ..reduced_model.sampled_motion import sample_motion
 from ..reduced_model.swing import (
     READ_POSITIONS,
@@ -53,7 +53,7 @@ def s_curve_trajectory(profile: Profile, trip: tuple[float, float]) -> Reference
 
 def model_with_sheave(model: RopeModel, mass: float) -> RopeModel:
     """The model with another sheave mass [kg], inertia in proportion."""
-    return with_changes(model, with_sheave(model, mass))
+    return with_changes(model, sheave_changes(model, mass))
 
 
 def mass_case(case: Mapping[str, Any]) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from ..parallel.progress import Progress, no_progress
 from ..presets import model_path
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
 from ..presets.overrides import Changes, by_key
-from .animation.frames import Camera
+from .animation.frames import FrameRecorder
 from .elevator import Elevator, driven_elevator, prescribed_elevator
 from .measured_run import read_run
 from .result import SimulationResult
@@ -79,19 +79,19 @@ def simulate(
         elevator, natural = _driven(model, motion, rope_model, drive_changes, fmu)
     timing = Timing(natural if duration is None else duration, step, coupling)
     with elevator as ready:
-        camera = None if fmu else Camera(partial(_rope, ready), timing.step)
-        simulated = simulate_trip(ready, names, timing, partial(_advance, progress, camera))
-    recording = camera.recording if camera else None
+        recorder = None if fmu else FrameRecorder(partial(_rope, ready), timing.step)
+        simulated = simulate_trip(ready, names, timing, partial(_advance, progress, recorder))
+    recording = recorder.recording if recorder else None
     return SimulationResult(
         simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording
     )
 
 
-def _advance(progress: Progress, camera: Camera | None, count: int, total: int) -> None:
+def _advance(progress: Progress, recorder: FrameRecorder | None, count: int, total: int) -> None:
     """Report progress of a communication step, and record the shape of the rope if available."""
     progress("simulating", count, total)
-    if camera:
-        camera(count, total)
+    if recorder:
+        recorder(count, total)
 
 
 def _rope(elevator: Elevator) -> CompensationRope:

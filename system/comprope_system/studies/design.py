@@ -9,8 +9,8 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, with_changes
 
 from ..parallel.sweep import Case
-from ..presets.paper_installations import model_in, with_sheave
-from ..report.finding import Fact, Finding
+from ..presets.paper_installations import model_of_case, sheave_changes
+from ..report.comparison_report import Comparison, ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, GREY, label, panels, plain_log
 from .study import AGREES, Study, StudyOptions
@@ -22,7 +22,7 @@ TOLERANCE = 0.005  # of the mass
 
 
 @dataclass(frozen=True)
-class Answer:
+class LeastMass:
     """The least mass [kg] that keeps the limit, whether the search ended there, and its runs: mass [kg], displacement [m]."""
 
     mass: float
@@ -30,7 +30,7 @@ class Answer:
     runs: tuple[tuple[float, float], ...]
 
 
-def least_mass(model: RopeModel, trip: Mapping[str, float], limit: float, measure: str = MEASURE) -> Answer:
+def least_mass(model: RopeModel, trip: Mapping[str, float], limit: float, measure: str = MEASURE) -> LeastMass:
     """Bisect the sheave mass of a building until the displacement on a trip up meets a limit [m].
 
     `trip` has distance [m], speed, acceleration and jerk. It is simulated with the full model for every mass; the
@@ -40,7 +40,7 @@ def least_mass(model: RopeModel, trip: Mapping[str, float], limit: float, measur
     runs: dict[float, float] = {}
 
     def displacement(mass: float) -> float:
-        case = {"model": as_table(with_changes(model, with_sheave(model, mass))), "trip": dict(trip)}
+        case = {"model": as_table(with_changes(model, sheave_changes(model, mass))), "trip": dict(trip)}
         runs[mass] = float(swing(case)[measure])
         return runs[mass]
 
@@ -51,25 +51,25 @@ def least_mass(model: RopeModel, trip: Mapping[str, float], limit: float, measur
             f"sheave of {high:.0f} kg"
         )
     if displacement(low) <= limit:
-        return Answer(low, True, tuple(sorted(runs.items())))
+        return LeastMass(low, True, tuple(sorted(runs.items())))
     while high - low > TOLERANCE * high:
         middle = (low * high) ** 0.5
         low, high = (low, middle) if displacement(middle) <= limit else (middle, high)
-    return Answer(high, False, tuple(sorted(runs.items())))
+    return LeastMass(high, False, tuple(sorted(runs.items())))
 
 
-def answer(case: Case) -> dict[str, Any]:
+def least_mass_case(case: Case) -> dict[str, Any]:
     """`least_mass` as a case of a sweep."""
-    found = least_mass(model_in(case), case["trip"], case["limit"])
+    found = least_mass(model_of_case(case), case["trip"], case["limit"])
     return {"mass": found.mass, "at_bound": found.at_bound, "runs": [list(run) for run in found.runs]}
 
 
-def _evaluate(options: StudyOptions, values: list[Any]) -> Finding:
+def _evaluate(options: StudyOptions, values: list[Any]) -> ComparisonReport:
     (v,) = values
     least = ("at most " if v["at_bound"] else "") + f"{v['mass']:.1f} kg"
-    trip = f"{options.building}, {options.distance:g} m up from the bottom landing"
-    facts = [
-        Fact(
+    trip = f"{options.installation}, {options.distance:g} m up from the bottom landing"
+    comparisons = [
+        Comparison(
             "use of the model",
             "estimate sufficient weight conditions of the sheave",
             f"{least} per rope keep the displacement below {1e3 * options.limit:g} mm ({trip})",
@@ -82,7 +82,7 @@ def _evaluate(options: StudyOptions, values: list[Any]) -> Finding:
     )
     rows = [(f"{mass:.1f}", f"{1e3 * value:.2f}", "pass" if value <= options.limit else "fail") for mass, value in v["runs"]]
     table = Table(("mass [kg]", "displacement [mm]", f"under {1e3 * options.limit:g} mm"), rows, "Runs of the bisection")
-    return Finding(facts, [text, Picture("design_least_weight", _draw(options, v)), table])
+    return ComparisonReport(comparisons, [text, Picture("design_least_weight", _draw(options, v)), table])
 
 
 def _draw(options: StudyOptions, v: dict[str, Any]) -> Any:
@@ -100,7 +100,7 @@ STUDY = Study(
     "design",
     "Section 6: smallest sufficient weight",
     "The proposed model can be applied to estimate sufficient weight conditions of the compensation sheave.",
-    lambda options: [{**swing_case(options.building, options.distance), "limit": options.limit}],
-    answer,
+    lambda options: [{**swing_case(options.installation, options.distance), "limit": options.limit}],
+    least_mass_case,
     _evaluate,
 )

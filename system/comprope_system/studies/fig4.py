@@ -8,8 +8,8 @@ from comprope.rope.simulator.rope import CompensationRope
 
 from ..parallel.sweep import Case
 from ..prescribed_trip import Floats
-from ..presets.paper_installations import TOWER, building, model_in, table, with_sheave
-from ..report.finding import Fact, Finding
+from ..presets.paper_installations import TOWER, installation, model_of_case, sheave_changes, table
+from ..report.comparison_report import Comparison, ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, GREY, label, legend, panels, plain_log
 from .study import AGREES, DIFFERS, Study, StudyOptions
@@ -21,13 +21,13 @@ SMALL = 0.05  # of the largest relative displacement: "close to zero"
 
 
 def _cases(_: StudyOptions) -> list[Case]:
-    nominal = building(TOWER).sheave.mass
-    return [{"model": table(TOWER, with_sheave(TOWER, fraction * nominal))} for fraction in FRACTIONS]
+    nominal = installation(TOWER).sheave.mass
+    return [{"model": table(TOWER, sheave_changes(TOWER, fraction * nominal))} for fraction in FRACTIONS]
 
 
 def static_offset(case: Case) -> list[float]:
     """Outward displacements [m] at PLACES of the rope at rest."""
-    model = model_in(case)
+    model = model_of_case(case)
     rope = CompensationRope(model)
     rope.solve_equilibrium(CAR, model.shaft.height - CAR)
     return [rope.lateral_displacement(side, height)[0] for side, height in PLACES]
@@ -41,31 +41,31 @@ def relative(offsets: Floats) -> Floats:
 
 def wrap_limit() -> float:
     """The fraction of the nominal weight below which the rope does not wrap the sheave: T < EI / (2 r^2)."""
-    model = building(TOWER)
+    model = installation(TOWER)
     return model.rope.bending_stiffness / model.sheave.radius**2 / (model.shaft.gravity * model.sheave.mass)
 
 
-def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> ComparisonReport:
     weights, offsets = np.array(FRACTIONS), np.array(values)
     shown = relative(offsets)[:, 0]
     at_75 = float(np.interp(0.75, weights, shown))
     above = float(shown[weights >= 0.75].max())
     falls = bool(np.all(np.diff(offsets[:, 0]) < 0.0))
     boundary = float(np.interp(-SMALL, -shown, weights))
-    facts = [
-        Fact(
+    comparisons = [
+        Comparison(
             "relative displacement from 75 % of the nominal weight on",
             "close to zero",
             f"{100 * above:.1f} % of the largest at most",
             AGREES if above < SMALL else DIFFERS,
         ),
-        Fact(
+        Comparison(
             "below 75 %",
             "gets larger",
             "increases monotonically with decreasing weight" if falls else "does not increase monotonically",
             AGREES if falls else DIFFERS,
         ),
-        Fact(
+        Comparison(
             "boundary weight",
             "75 % of the nominal",
             f"{100 * boundary:.0f} % for {100 * SMALL:.0f} % of the largest displacement; the curve is smooth, without a kink",
@@ -81,7 +81,9 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
         f"75 % is larger. Below {100 * wrap_limit():.0f} % of the nominal weight this rope no longer wraps the sheave and "
         "hangs as a free loop. With the car half-way up the two sides are mirror images."
     )
-    return Finding(facts, [text, Picture("fig4_static_displacement", _draw(weights, offsets)), _numbers(weights, offsets)])
+    return ComparisonReport(
+        comparisons, [text, Picture("fig4_static_displacement", _draw(weights, offsets)), _numbers(weights, offsets)]
+    )
 
 
 def _numbers(weights: Floats, offsets: Floats) -> Table:
@@ -99,7 +101,7 @@ def _draw(weights: Floats, offsets: Floats) -> Any:
     for k, (side, height) in enumerate(PLACES):
         left.plot(weights, relative(offsets)[:, k], styles[k], color=COLOURS[k], markersize=4, label=f"{side}, {height:g} m")
         right.plot(weights, 1e3 * offsets[:, k], styles[k], color=COLOURS[k], markersize=4)
-    model = building(TOWER)
+    model = installation(TOWER)
     tension = 0.5 * model.shaft.gravity * model.sheave.mass * weights
     right.plot(
         weights,

@@ -10,9 +10,9 @@ from comprope.rope.simulator.rope import CompensationRope
 
 from ..modal.hanging_string import HangingString, side_string
 from ..parallel.sweep import Case
-from ..prescribed_trip import Floats, record, side_shape, trip_of
-from ..presets.paper_installations import TOWER, model_in, up
-from ..report.finding import Fact, Finding
+from ..prescribed_trip import Floats, jerk_limited_trip, record_trip, side_shape
+from ..presets.paper_installations import TOWER, model_of_case, trip_up
+from ..report.comparison_report import Comparison, ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels, plain_log
 from .study import AGREES, DIFFERS, Study, StudyOptions
@@ -27,16 +27,16 @@ PROMINENCE = 1.5e-4  # m: smaller extremes are not counted as swings
 
 def up_trip(case: Case) -> dict[str, list[float]]:
     """The trip over time: car [m], displacement [m] at the low sensor, first mode's part [m], its frequency by theory [Hz]."""
-    model, trip = model_in(case), trip_of(**case["trip"])
+    model, trip = model_of_case(case), jerk_limited_trip(**case["trip"])
 
-    def look(rope: CompensationRope) -> Floats:
+    def evaluate(rope: CompensationRope) -> Floats:
         string = side_string(model, -rope.state.q[0])
         sensor = side_shape(rope, "counterweight", np.array([SENSOR]))
         return np.array([-rope.state.q[0], sensor[0], first_mode(rope, string), 1.0 / string.wkb_period()])
 
-    time, seen = record(model, trip, trip.end_time + AFTER, look)
-    seen = np.where(np.isfinite(seen), seen, 0.0)
-    return {"time": time.tolist()} | dict(zip(("car", "sensor", "mode", "theory"), seen.T.tolist(), strict=True))
+    time, samples = record_trip(model, trip, trip.end_time + AFTER, evaluate)
+    samples = np.where(np.isfinite(samples), samples, 0.0)
+    return {"time": time.tolist()} | dict(zip(("car", "sensor", "mode", "theory"), samples.T.tolist(), strict=True))
 
 
 def first_mode(rope: CompensationRope, string: HangingString) -> float:
@@ -62,9 +62,9 @@ def _vertex(time: Floats, signal: Floats, k: int) -> float:
     return float(time[k] + 0.5 * (a - c) / (a - 2.0 * b + c) * (time[1] - time[0]))
 
 
-def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> ComparisonReport:
     v = {key: np.array(one) for key, one in values[0].items()}
-    trip = up(TOWER, DISTANCE)
+    trip = trip_up(TOWER, DISTANCE)
     moving = v["time"] <= trip.end_time
     at, found = frequencies(v["time"][moving], v["mode"][moving])
     theory = np.interp(at, v["time"], v["theory"])
@@ -72,14 +72,14 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
     rising = float(spearmanr(at, found).statistic)
     cruising = (at > trip.start_time + 5.0) & (at < trip.end_time - 5.0)
     within = float(np.sqrt(np.mean(error[cruising] ** 2)))
-    facts = [
-        Fact(
+    comparisons = [
+        Comparison(
             "frequency during the trip",
             "increases",
             f"from {found[0]:.2f} to {found[-1]:.2f} Hz, rank correlation with time {rising:.3f}",
             AGREES if rising > 0.9 else DIFFERS,
         ),
-        Fact(
+        Comparison(
             "cause",
             "the side shortens, so its natural frequency rises",
             f"follows √(T/ρ)/2L (integrated over the side) within {100 * within:.1f} % rms at constant speed",
@@ -102,13 +102,13 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
         ],
         "Every fourth half period",
     )
-    return Finding(facts, [text, Picture("fig5_up_trip", _draw(v, at, found)), table])
+    return ComparisonReport(comparisons, [text, Picture("fig5_up_trip", _draw(v, at, found)), table])
 
 
 def _draw(v: dict[str, Floats], at: Floats, found: Floats) -> Any:
     figure, (sensor, mode, frequency, car) = panels(2, 2, height=2.7)
-    seen = v["sensor"] != 0.0
-    sensor.plot(v["time"][seen], 1e3 * (v["sensor"][seen] - v["sensor"][0]), color=COLOURS[0])
+    samples = v["sensor"] != 0.0
+    sensor.plot(v["time"][samples], 1e3 * (v["sensor"][samples] - v["sensor"][0]), color=COLOURS[0])
     label(sensor, "", "from rest [mm]", f"counterweight's side at {SENSOR} m")
     mode.plot(v["time"], 1e3 * (v["mode"] - v["mode"][0]), color=COLOURS[0])
     label(mode, "", "from rest [mm]", "first mode of the side")

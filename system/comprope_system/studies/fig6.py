@@ -6,8 +6,8 @@ import numpy as np
 
 from ..modal.hanging_string import side_string
 from ..parallel.sweep import Case
-from ..presets.paper_installations import BUILDING, LIMITS, building, up, with_sheave
-from ..report.finding import Fact, Finding
+from ..presets.paper_installations import BUILDING, LIMITS, installation, sheave_changes, trip_up
+from ..report.comparison_report import Comparison, ComparisonReport
 from ..report.page import Block, Picture, Table
 from ..report.plot_style import COLOURS, GREY, label, legend, panels
 from .peaks import oscillator_peak, peak
@@ -27,8 +27,8 @@ VARIANTS: dict[str, dict[str, float]] = {
     "external damping 0.1 N s/m²": {"rope.external_damping": 0.1},
     "bending damping ten times": {"rope.bending_damping": 1.0},
     "no friction on the groove": {"contact.friction_coefficient": 0.0},
-    "sheave 150 kg": with_sheave(BUILDING, 150.0),
-    f"sheave {HEAVY:g} kg": with_sheave(BUILDING, HEAVY),
+    "sheave 150 kg": sheave_changes(BUILDING, 150.0),
+    f"sheave {HEAVY:g} kg": sheave_changes(BUILDING, HEAVY),
 }
 
 
@@ -40,11 +40,13 @@ def fixed_peaks(rows: list[Any]) -> list[tuple[float, float]]:
     """Heights [m] of sensors with the rope in view on every trip, and the distance [m] of the largest swing after it there."""
     swings = np.array([row["by_height"] for row in rows])
     heights = np.array(rows[0]["heights"])
-    seen = (swings > 0.0).all(axis=0) & (heights > 5.0)
-    return [(float(height), peak(np.array(DISTANCES), one)) for height, one in zip(heights[seen], swings.T[seen], strict=True)]
+    samples = (swings > 0.0).all(axis=0) & (heights > 5.0)
+    return [
+        (float(height), peak(np.array(DISTANCES), one)) for height, one in zip(heights[samples], swings.T[samples], strict=True)
+    ]
 
 
-def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> ComparisonReport:
     count = len(DISTANCES)
     by_variant = {name: values[k * count : (k + 1) * count] for k, name in enumerate(VARIANTS)}
     peaks = {
@@ -53,7 +55,7 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
     }
     base = by_variant["as the preset"]
     heights = fixed_peaks(base)
-    facts = _facts(peaks, base, heights)
+    comparisons = _facts(peaks, base, heights)
     blocks: list[Block] = [
         _explain(peaks),
         Picture("fig6_running_distance", _draw(by_variant)),
@@ -65,10 +67,10 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
         ),
         _comparison(base),
     ]
-    return Finding(facts, blocks)
+    return ComparisonReport(comparisons, blocks)
 
 
-def _facts(peaks: dict[str, dict[str, float]], base: list[Any], heights: list[tuple[float, float]]) -> list[Fact]:
+def _facts(peaks: dict[str, dict[str, float]], base: list[Any], heights: list[tuple[float, float]]) -> list[Comparison]:
     middle, mode = (peaks["as the preset"][key] for key in ("middle_after", "mode_after"))
     found = [height for height, at in heights if abs(at - STATED) <= NEAR]
     where = f"{min(found):.0f} to {max(found):.0f} m" if found else "no height"
@@ -76,20 +78,19 @@ def _facts(peaks: dict[str, dict[str, float]], base: list[Any], heights: list[tu
     half = [one["half_shaft_after"] for one in peaks.values()]
     others = [name for name, one in peaks.items() if abs(one["middle_after"] - STATED) <= NEAR]
     return [
-        Fact(
+        Comparison(
             "peak of the swing in the middle of the rope",
             "22 m",
             f"{middle:.0f} m (first mode only {mode:.0f} m); above 90 % of the largest from {low:.0f} to {high:.0f} m",
             AGREES if abs(middle - STATED) <= NEAR else PARTLY if low <= STATED <= high else DIFFERS,
         ),
-        Fact(
+        Comparison(
             "the same with other parameters",
             "22 m",
-            "within 2 m of it: "
-            + (", ".join(others) + " (whose period is not the stated one)" if others else "none of these"),
+            "within 2 m of it: " + (", ".join(others) + " (whose period is not the stated one)" if others else "none of these"),
             PARTLY if others else DIFFERS,
         ),
-        Fact(
+        Comparison(
             "peak of the swing after the trip at a fixed height",
             "22 m",
             (
@@ -98,7 +99,7 @@ def _facts(peaks: dict[str, dict[str, float]], base: list[Any], heights: list[tu
             ),
             PARTLY if found else DIFFERS,
         ),
-        Fact(
+        Comparison(
             "displacement over distance",
             "rises to one peak, then falls",
             "yes for the swing after the trip; the maximum during the trip increases with distance and speed throughout",
@@ -116,9 +117,9 @@ def _within(rows: list[Any], key: str, share: float) -> tuple[float, float]:
 
 
 def _explain(peaks: dict[str, dict[str, float]]) -> str:
-    string = side_string(building(BUILDING), STATED)
+    string = side_string(installation(BUILDING), STATED)
     ramp = LIMITS[BUILDING][1] / LIMITS[BUILDING][2]
-    heavy = side_string(building(BUILDING, with_sheave(BUILDING, HEAVY)), STATED).period()
+    heavy = side_string(installation(BUILDING, sheave_changes(BUILDING, HEAVY)), STATED).period()
     half = peaks["as the preset"]["half_shaft_after"]
     same_period = [one["middle_after"] for name, one in peaks.items() if not name.startswith("sheave")]
     return (
@@ -150,7 +151,7 @@ def _place(distance: float) -> str:
 def _comparison(base: list[Any]) -> Table:
     found = {distance: 1e3 * row["middle_after"] for distance, row in zip(DISTANCES, base, strict=True)}
     rows = [
-        (f"{d:g}", f"{up(BUILDING, d).duration:.2f}", f"{v:.2f}", f"{INDEPENDENT[d]:.2f}" if d in INDEPENDENT else "")
+        (f"{d:g}", f"{trip_up(BUILDING, d).duration:.2f}", f"{v:.2f}", f"{INDEPENDENT[d]:.2f}" if d in INDEPENDENT else "")
         for d, v in found.items()
     ]
     head = ("distance [m]", "trip lasts [s]", "this model [mm]", "independent simulation [mm]")

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from ..parallel.sweep import Case
-from ..prescribed_trip import trip_of
-from ..presets.paper_installations import BUILDING, LIMITS, limits, up
-from ..report.finding import Fact, Finding
+from ..prescribed_trip import jerk_limited_trip
+from ..presets.paper_installations import BUILDING, LIMITS, limits, trip_up
+from ..report.comparison_report import Comparison, ComparisonReport
 from ..report.page import Picture
 from ..report.plot_style import FIRST, label, panels
 from .study import AGREES, DIFFERS, Study, StudyOptions
@@ -24,7 +24,7 @@ def jerk_of(distance: float, duration: float, acceleration: float) -> float:
 
 def profile(case: Case) -> dict[str, float]:
     """Phases [s], top speed [m/s] and jerk [m/s3] of the trip."""
-    trip = trip_of(**case["trip"])
+    trip = jerk_limited_trip(**case["trip"])
     jerk = jerk_of(trip.destination, DURATION, case["trip"]["acceleration"])
     top = trip.at(trip.start_time + 0.5 * trip.duration).velocity
     return {
@@ -37,24 +37,24 @@ def profile(case: Case) -> dict[str, float]:
     }
 
 
-def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> ComparisonReport:
     (v,) = values
     speed, acceleration, jerk = LIMITS[BUILDING]
     reaches = v["duration"] - DURATION
-    facts = [
-        Fact(
+    comparisons = [
+        Comparison(
             "time of the 22 m trip",
             "10.2 s",
             f"{v['duration']:.2f} s with a jerk of {jerk:g} m/s³",
             AGREES if abs(reaches) < 0.05 else DIFFERS,
         ),
-        Fact(
+        Comparison(
             "jerk that makes it 10.2 s",
             "about 0.93 m/s³ (derived)",
             f"{v['jerk']:.3f} m/s³",
             AGREES if abs(v["jerk"] - 0.93) < 0.01 else DIFFERS,
         ),
-        Fact("rated speed", "540 m/min = 9 m/s", f"not reached: {v['top']:.2f} m/s at most", AGREES),
+        Comparison("rated speed", "540 m/min = 9 m/s", f"not reached: {v['top']:.2f} m/s at most", AGREES),
     ]
     text = (
         f"The jerk is not stated. A symmetric jerk-limited trip of 22 m at {acceleration} m/s² in 10.2 s has one: ramps of "
@@ -62,11 +62,11 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
         f"{2 * sqrt(DISTANCE / acceleration):.2f} s; {speed:g} m/s is reached from "
         f"{speed * (speed / acceleration + acceleration / jerk):.0f} m on."
     )
-    return Finding(facts, [text, Picture("fig7_acceleration", _draw())])
+    return ComparisonReport(comparisons, [text, Picture("fig7_acceleration", _draw())])
 
 
 def _draw() -> Any:
-    trip = up(BUILDING, DISTANCE)
+    trip = trip_up(BUILDING, DISTANCE)
     time = np.linspace(0.0, trip.end_time + 1.0, 1200)
     motion = [trip.at(t) for t in time]
     figure, axes = panels(3, height=2.8)

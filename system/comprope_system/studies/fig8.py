@@ -8,8 +8,8 @@ from scipy.optimize import brentq
 from ..modal.hanging_string import side_string
 from ..parallel.sweep import Case
 from ..prescribed_trip import Floats
-from ..presets.paper_installations import BUILDING, building, up, with_sheave
-from ..report.finding import Fact, Finding
+from ..presets.paper_installations import BUILDING, installation, sheave_changes, trip_up
+from ..report.comparison_report import Comparison, ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels, plain_log
 from .study import AGREES, DIFFERS, PARTLY, Study, StudyOptions
@@ -22,13 +22,13 @@ FIXED = 22.0  # m
 
 def tuned_distance(mass: float) -> float:
     """Running distance [m] whose trip lasts as long as the natural period [s] at its end, for a sheave mass [kg]."""
-    model = building(BUILDING, with_sheave(BUILDING, mass))
-    return float(brentq(lambda d: up(BUILDING, d).duration - side_string(model, d).period(), 3.0, 80.0))
+    model = installation(BUILDING, sheave_changes(BUILDING, mass))
+    return float(brentq(lambda d: trip_up(BUILDING, d).duration - side_string(model, d).period(), 3.0, 80.0))
 
 
 def _cases(_: StudyOptions) -> list[Case]:
-    tuned = [swing_case(BUILDING, round(tuned_distance(mass), 3), with_sheave(BUILDING, mass)) for mass in MASSES]
-    return tuned + [swing_case(BUILDING, FIXED, with_sheave(BUILDING, mass)) for mass in MASSES]
+    tuned = [swing_case(BUILDING, round(tuned_distance(mass), 3), sheave_changes(BUILDING, mass)) for mass in MASSES]
+    return tuned + [swing_case(BUILDING, FIXED, sheave_changes(BUILDING, mass)) for mass in MASSES]
 
 
 def fits(mass: Floats, value: Floats) -> dict[str, tuple[float, float, float]]:
@@ -49,20 +49,20 @@ def fits(mass: Floats, value: Floats) -> dict[str, tuple[float, float, float]]:
     return found
 
 
-def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> ComparisonReport:
     mass, tuned, fixed = np.array(MASSES), values[: len(MASSES)], values[len(MASSES) :]
     laws = {key: fits(mass, np.array([row[key] for row in tuned])) for key in SHOWN}
     falls = all(np.all(np.diff([row[key] for row in tuned]) < 0.0) for key in SHOWN)
     better = [key for key in SHOWN if laws[key]["exponential"][2] < laws[key]["power"][2]]
     first = laws["middle_after"]
-    facts = [
-        Fact(
+    comparisons = [
+        Comparison(
             "displacement as the sheave gets lighter",
             "increases",
             "increases monotonically, for every measure" if falls else "increases, but not monotonically for every measure",
             AGREES if falls else PARTLY,
         ),
-        Fact(
+        Comparison(
             "law of growth",
             "exponential",
             (
@@ -79,8 +79,9 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
         "is significant. The rope is excited by its bending at the sheave, of the order EI / (2 r T), which explains powers "
         "of the tension."
     )
-    return Finding(
-        facts, [text, Picture("fig8_sheave_weight", _draw(mass, tuned, fixed, laws)), _law_table(laws), _table(tuned, fixed)]
+    return ComparisonReport(
+        comparisons,
+        [text, Picture("fig8_sheave_weight", _draw(mass, tuned, fixed, laws)), _law_table(laws), _table(tuned, fixed)],
     )
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..prescribed_trip import Floats
-from ..presets.paper_installations import BUILDING, up
+from ..presets.paper_installations import BUILDING, trip_up
 
 
 def peak(distances: Floats, values: Floats) -> float:
@@ -27,7 +27,7 @@ def oscillator_peak(period: float) -> float:
 
 
 def _residual(distance: float, w: float) -> float:
-    trip = up(BUILDING, distance)
+    trip = trip_up(BUILDING, distance)
     width = trip.ramp + trip.plateau
     braking = width + trip.ramp + trip.cruise  # begins so long after the start
     return float(abs(np.sin(0.5 * w * braking) * np.sin(0.5 * w * width) * np.sin(0.5 * w * trip.ramp)))

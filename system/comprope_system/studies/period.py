@@ -12,8 +12,8 @@ from comprope.rope.parameters import Base
 from ..modal.hanging_string import mass_for_period, side_string
 from ..modal.modes import modes
 from ..parallel.sweep import Case
-from ..presets.paper_installations import BUILDING, building, model_in, table, with_sheave
-from ..report.finding import Fact, Finding
+from ..presets.paper_installations import BUILDING, installation, model_of_case, sheave_changes, table
+from ..report.comparison_report import Comparison, ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels
 from .study import AGREES, DIFFERS, Study, StudyOptions
@@ -33,7 +33,7 @@ def _cases(_: StudyOptions) -> list[Case]:
 
 def identify(case: Case) -> dict[str, float]:
     """The sheave mass [kg] that gives the stated period, by model, string and travel time; or the period [s] for a car height."""
-    model = model_in(case)
+    model = model_of_case(case)
     if "car" in case:
         string = side_string(model, case["car"])
         return {"model": first_period(model, case["car"]), "string": string.period(), "wkb": string.wkb_period()}
@@ -51,12 +51,12 @@ def first_period(model: Base, car: float) -> float:
 
 def _root(model: RopeModel, period: Callable[[Base], float]) -> float:
     """The sheave mass [kg] at which a period is the stated one."""
-    return float(brentq(lambda mass: period(with_changes(model, with_sheave(model, mass))) - PERIOD, 60.0, 250.0, xtol=1e-3))
+    return float(brentq(lambda mass: period(with_changes(model, sheave_changes(model, mass))) - PERIOD, 60.0, 250.0, xtol=1e-3))
 
 
-def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
+def _evaluate(_: StudyOptions, values: list[Any]) -> ComparisonReport:
     found, at = dict(zip(PITS, values[: len(PITS)], strict=True)), values[len(PITS) :]
-    own = building(BUILDING)
+    own = installation(BUILDING)
     mass, here = found[own.shaft.pit], at[CARS.index(CAR)]
     rows = [(f"{pit:g}", *(f"{one[key]:.1f}" for key in ("model", "string", "wkb"))) for pit, one in found.items()]
     masses = Table(
@@ -64,14 +64,14 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
         rows,
         "Sheave mass for 10.27 s with the car at 22 m, for 1.2 kg/m",
     )
-    facts = [
-        Fact(
+    comparisons = [
+        Comparison(
             "sheave mass per rope of 1.2 kg/m",
             "about 119 kg (derived, WKB)",
             f"{mass['model']:.1f} kg with the model, {mass['wkb']:.1f} kg with WKB",
             AGREES if abs(mass["wkb"] - 119.0) < 3.0 else DIFFERS,
         ),
-        Fact(
+        Comparison(
             "period with the car at 22 m",
             "10.27 s",
             f"{here['model']:.2f} s for the preset's {own.sheave.mass:g} kg",
@@ -86,7 +86,7 @@ def _evaluate(_: StudyOptions, values: list[Any]) -> Finding:
         f"{100 * (1.0 - here['wkb'] / here['model']):.1f} % shorter, which corresponds to {mass['model'] - mass['wkb']:.1f} kg "
         "of sheave mass. Height, pit and rope are those of the preset; the pit is not stated, its influence is in the table."
     )
-    return Finding(facts, [text, masses, Picture("period_over_car_position", _draw(at))])
+    return ComparisonReport(comparisons, [text, masses, Picture("period_over_car_position", _draw(at))])
 
 
 def _draw(at: list[dict[str, float]]) -> Any:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..parallel.sweep import Case, Task
-from ..report.finding import Finding, fact_table
+from ..report.comparison_report import ComparisonReport, comparison_table
 from ..report.page import Section
 
 AGREES, DIFFERS, PARTLY = "yes", "no", "partly"
@@ -15,14 +15,14 @@ AGREES, DIFFERS, PARTLY = "yes", "no", "partly"
 class StudyOptions:
     """Options of the study `design`: building, running distance [m] and displacement limit [m]."""
 
-    building: str = "building200"
+    installation: str = "building200"
     distance: float = 22.0
     limit: float = 0.005
 
 
 @dataclass(frozen=True)
 class Study:
-    """Cases `cases(options)`, simulated by `task` in any order and process; `evaluate(options, values)` gives the finding.
+    """Cases `cases(options)`, simulated by `task` in any order and process; `evaluate(options, values)` gives the report.
 
     `quote` is the statement of the paper, `title` its section or figure.
     """
@@ -32,8 +32,8 @@ class Study:
     quote: str
     cases: Callable[[StudyOptions], list[Case]]
     task: Task
-    evaluate: Callable[[StudyOptions, list[Any]], Finding]
+    evaluate: Callable[[StudyOptions, list[Any]], ComparisonReport]
 
-    def section(self, finding: Finding) -> Section:
-        """The finding as a section of a page."""
-        return Section(self.name, self.title, [fact_table(finding.facts), *finding.blocks], self.quote)
+    def section(self, report: ComparisonReport) -> Section:
+        """The report as a section of a page."""
+        return Section(self.name, self.title, [comparison_table(report.comparisons), *report.blocks], self.quote)

@@ -11,8 +11,8 @@ from comprope.rope.simulator.rope import CompensationRope
 
 from ..modal.hanging_string import side_string
 from ..parallel.sweep import Case
-from ..prescribed_trip import Floats, record, side_shape, trip_of
-from ..presets.paper_installations import limits, model_in, table
+from ..prescribed_trip import Floats, jerk_limited_trip, record_trip, side_shape
+from ..presets.paper_installations import limits, model_of_case, table
 
 AFTER = 20.0  # s watched after the trip: the rope's slowest period and more
 FRACTIONS = np.linspace(0.02, 0.98, 25)  # of the free length, from the axle to the end
@@ -40,15 +40,15 @@ def swing_case(name: str, distance: float, changes: Mapping[str, Any] | None = N
 
 def swing(case: Case) -> dict[str, Any]:
     """Run a trip; its duration [s], every one of MEASURES [m], and half the swing after it by height [m]."""
-    model, trip = model_in(case), trip_of(**case["trip"])
+    model, trip = model_of_case(case), jerk_limited_trip(**case["trip"])
     low = 2.0 - model.shaft.pit
     heights = np.concatenate([[low, 0.5 * model.shaft.height], np.linspace(0.0, model.shaft.height, 41)])
 
-    def look(rope: CompensationRope) -> Floats:
+    def evaluate(rope: CompensationRope) -> Floats:
         return np.concatenate([_along(rope, "counterweight"), side_shape(rope, "counterweight", heights), _along(rope, "car")])
 
-    time, seen = record(model, trip, trip.end_time + AFTER, look)
-    own, fixed, car = np.split(seen, [len(FRACTIONS), len(FRACTIONS) + len(heights)], axis=1)
+    time, samples = record_trip(model, trip, trip.end_time + AFTER, evaluate)
+    own, fixed, car = np.split(samples, [len(FRACTIONS), len(FRACTIONS) + len(heights)], axis=1)
     after = time > trip.end_time
     by_height = half_swing(fixed[after][:, 2:])
     return {

@@ -13,7 +13,7 @@ from comprope.validation_messages import suggestion
 from ..parallel.executors import workers
 from ..parallel.progress import Progress, no_progress
 from ..parallel.sweep import sweep, values
-from ..report.finding import Fact, Finding, fact_table
+from ..report.comparison_report import Comparison, ComparisonReport, comparison_table
 from ..report.page import Section, save_page, save_pictures
 from .study import Study, StudyOptions
 
@@ -38,21 +38,21 @@ class Request:
     options: StudyOptions = StudyOptions()  # noqa: RUF009 -- frozen
 
 
-def run(request: Request, progress: Progress = no_progress) -> dict[str, Finding]:
+def run(request: Request, progress: Progress = no_progress) -> dict[str, ComparisonReport]:
     """Run the studies and write figures and page; an interrupted run in the same folder is resumed."""
     studies = [find(name) for name in request.names or NAMES]
     require_writable(request.out / PAGE)
-    findings = {}
+    reports = {}
     with workers(request.jobs, request.executor) as executor:
         for study in studies:
             outcomes = sweep(study.task, study.cases(request.options), executor, request.out / STORE, study.name, progress)
-            findings[study.name] = study.evaluate(request.options, values(outcomes))
-    sections = [study.section(findings[study.name]) for study in studies]
-    facts = [fact for finding in findings.values() for fact in finding.facts]
+            reports[study.name] = study.evaluate(request.options, values(outcomes))
+    sections = [study.section(reports[study.name]) for study in studies]
+    comparisons = [fact for comparison_report in reports.values() for fact in comparison_report.comparisons]
     save_pictures(request.out, sections)
-    save_page(request.out / PAGE, TITLE, LEAD, [Section("summary", "Summary", [fact_table(facts)]), *sections])
-    _print(facts, request.out / PAGE)
-    return findings
+    save_page(request.out / PAGE, TITLE, LEAD, [Section("summary", "Summary", [comparison_table(comparisons)]), *sections])
+    _print(comparisons, request.out / PAGE)
+    return reports
 
 
 def find(name: str) -> Study:
@@ -63,6 +63,8 @@ def find(name: str) -> Study:
     return study
 
 
-def _print(facts: Sequence[Fact], page: Path) -> None:
-    sys.stdout.write("".join(f"{one.verdict:<6}  {one.what}: stated {one.stated}; obtained {one.obtained}\n" for one in facts))
+def _print(comparisons: Sequence[Comparison], page: Path) -> None:
+    sys.stdout.write(
+        "".join(f"{one.verdict:<6}  {one.what}: stated {one.stated}; obtained {one.obtained}\n" for one in comparisons)
+    )
     sys.stdout.write(f"written {page}\n")

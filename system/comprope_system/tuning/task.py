@@ -9,7 +9,7 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, with_changes
 
 from ..modal.hanging_string import side_string
-from ..presets.paper_installations import with_sheave
+from ..presets.paper_installations import sheave_changes
 from ..reduced_model.calibration import calibrated_string
 from ..reduced_model.hoist_bounce import HoistBounce, hoist_bounce
 from ..reduced_model.swing import ReducedModel, Swing, observation_time
@@ -64,7 +64,7 @@ def reduced_model_of(model: RopeModel, hoist: HoistBounce | None = None) -> Redu
 
 def with_sheave_factor(model: RopeModel, factor: float) -> RopeModel:
     """The model with mass and inertia of the sheave multiplied by a factor."""
-    return model if factor == 1.0 else with_changes(model, with_sheave(model, model.sheave.mass * factor), "sheave")
+    return model if factor == 1.0 else with_changes(model, sheave_changes(model, model.sheave.mass * factor), "sheave")
 
 
 def periods(model: RopeModel) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from ..report.finding import Fact, Finding, fact_table
+from ..report.comparison_report import Comparison, ComparisonReport, comparison_table
 from ..report.page import Section, Table
 
 PASS, FAIL = "pass", "fail"
@@ -11,22 +11,22 @@ PASS, FAIL = "pass", "fail"
 
 @dataclass(frozen=True)
 class Check:
-    """`run()` returns the finding; `title` names what is checked."""
+    """`run()` returns the report; `title` names what is checked."""
 
     name: str
     title: str
-    run: Callable[[], Finding]
+    run: Callable[[], ComparisonReport]
 
-    def section(self, finding: Finding) -> Section:
-        """The finding as a section of a page."""
-        return Section(self.name, self.title, [verdicts(finding.facts), *finding.blocks])
-
-
-def verdicts(facts: Sequence[Fact]) -> Table:
-    """Facts as a table of a verification page."""
-    return fact_table(facts, ("", "expected", "obtained", "verdict"))
+    def section(self, report: ComparisonReport) -> Section:
+        """The report as a section of a page."""
+        return Section(self.name, self.title, [verdicts(report.comparisons), *report.blocks])
 
 
-def judged(what: str, expected: str, obtained: str, passed: bool) -> Fact:
-    """A fact that passes or fails."""
-    return Fact(what, expected, obtained, PASS if passed else FAIL)
+def verdicts(comparisons: Sequence[Comparison]) -> Table:
+    """Comparisons as a table of a verification page."""
+    return comparison_table(comparisons, ("", "expected", "obtained", "verdict"))
+
+
+def pass_or_fail(what: str, expected: str, obtained: str, passed: bool) -> Comparison:
+    """A comparison that passes or fails."""
+    return Comparison(what, expected, obtained, PASS if passed else FAIL)

@@ -8,12 +8,12 @@ import numpy as np
 from comprope.rope.mechanics.end_conditions import PATH, PATHS
 from comprope.rope.simulator.rope import CompensationRope
 
-from ..prescribed_trip import Floats, record
-from ..presets.paper_installations import TOWER, building, up
-from ..report.finding import Finding
+from ..prescribed_trip import Floats, record_trip
+from ..presets.paper_installations import TOWER, installation, trip_up
+from ..report.comparison_report import ComparisonReport
 from ..report.page import Block, Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels, plain_log
-from .check import Check, judged
+from .check import Check, pass_or_fail
 from .reference import rms
 
 Run = Callable[[dict[str, float]], Floats]
@@ -41,12 +41,12 @@ def seen(rope: CompensationRope) -> Floats:
 
 def on_trip(changes: dict[str, float]) -> Floats:
     """Displacements [m] over the first seconds of a trip up (times, heights)."""
-    return record(building(TOWER, changes), up(TOWER, 50.0), UNTIL, seen)[1]
+    return record_trip(installation(TOWER, changes), trip_up(TOWER, 50.0), UNTIL, seen)[1]
 
 
 def at_rest(changes: dict[str, float]) -> Floats:
     """Displacements [m] at rest for CARS (cars, heights)."""
-    model = building(TOWER, changes)
+    model = installation(TOWER, changes)
     rope, found = CompensationRope(model), []
     for car in CARS:
         rope.solve_equilibrium(car, model.shaft.height - car)
@@ -54,9 +54,9 @@ def at_rest(changes: dict[str, float]) -> Floats:
     return np.array(found)
 
 
-def led_sideways(changes: dict[str, float]) -> Floats:
+def moved_sideways(changes: dict[str, float]) -> Floats:
     """Displacements [m] during a lateral motion of the counterweight end (times, heights): no rope runs over the sheave."""
-    model, car = building(TOWER, changes), 10.0
+    model, car = installation(TOWER, changes), 10.0
     rope, found = CompensationRope(model), []
     rope.solve_equilibrium(car, model.shaft.height - car)
     path = np.zeros((PATHS, PATH))
@@ -92,7 +92,7 @@ def in_mesh() -> dict[str, Floats]:
 def in_step() -> dict[str, Floats]:
     """Differences [m], rms, from the finest step over STEPS, for each numerical damping."""
     found = {}
-    for name, run in (("end led sideways", led_sideways), ("on a trip", on_trip)):
+    for name, run in (("end led sideways", moved_sideways), ("on a trip", on_trip)):
         for damping in DAMPINGS:
             changes = {"solver.numerical_damping": damping}
             found[f"{name}, damping {damping:g}"] = _errors(run, "solver.step", STEPS, FINEST_STEP, changes)
@@ -104,16 +104,16 @@ def _errors(run: Run, key: str, sizes: tuple[float, ...], finest: float, changes
     return np.array([rms(run({**(changes or {}), key: size}) - best) for size in sizes])
 
 
-def _run() -> Finding:
+def _run() -> ComparisonReport:
     mesh, step = in_mesh(), in_step()
-    facts = [
-        judged(f"order in element length, {name}", "1.8 or more", f"{order(ELEMENTS, one):.2f}", order(ELEMENTS, one) > 1.8)
+    comparisons = [
+        pass_or_fail(f"order in element length, {name}", "1.8 or more", f"{order(ELEMENTS, one):.2f}", order(ELEMENTS, one) > 1.8)
         for name, one in mesh.items()
     ]
     for name, one in step.items():
         least, most = (1.8, 2.2) if "sideways" in name else (1.4, 2.2)
-        facts.append(
-            judged(
+        comparisons.append(
+            pass_or_fail(
                 f"order in time step, {name}",
                 f"{least:g} to {most:g}",
                 f"{order(STEPS, one):.2f}",
@@ -121,7 +121,7 @@ def _run() -> Finding:
             )
         )
     for name, error in (("mesh, 5 cm", mesh["on a trip"][2]), ("step, 4 ms", step["on a trip, damping 0.15"][2])):
-        facts.append(judged(f"default {name}, on a trip", "under 0.1 mm rms", f"{1e3 * error:.4f} mm", error < 1e-4))
+        comparisons.append(pass_or_fail(f"default {name}, on a trip", "under 0.1 mm rms", f"{1e3 * error:.4f} mm", error < 1e-4))
     text = (
         f"50 m tower; lateral displacement at {', '.join(f'{h:g}' for h in HEIGHTS)} m on the counterweight's side, rms of the "
         f"difference from {1e3 * FINEST_ELEMENT:g} mm elements or steps of {1e3 * FINEST_STEP:g} ms. On a trip: the first "
@@ -136,7 +136,7 @@ def _run() -> Finding:
         _table("element [mm]", ELEMENTS, mesh),
         _table("step [ms]", STEPS, step),
     ]
-    return Finding(facts, blocks)
+    return ComparisonReport(comparisons, blocks)
 
 
 def _table(name: str, sizes: tuple[float, ...], errors: dict[str, Floats]) -> Table:

@@ -52,7 +52,7 @@ class Hanging:
         )
 
 
-Lead = Callable[[float], tuple[float, float, float]]  # from time to position, velocity, acceleration of the upper end
+EndMotion = Callable[[float], tuple[float, float, float]]  # from time to position, velocity, acceleration of the upper end
 
 
 def lead_sine(time: float, amplitude: float = 0.05, frequency: float = 0.2) -> tuple[float, float, float]:
@@ -64,7 +64,7 @@ def lead_sine(time: float, amplitude: float = 0.05, frequency: float = 0.2) -> t
 class FreeRope:
     """The rope in motion: q, v, a hold x (down) and y of n nodes, each with a column to spare, as the kernels have it."""
 
-    def __init__(self, rope: Hanging, lead: Lead) -> None:
+    def __init__(self, rope: Hanging, lead: EndMotion) -> None:
         self.rope, self.lead, self.p = rope, lead, rope.parameters
         self.n = rope.elements + 1
         m, self.element = self.n + 1, rope.length / rope.elements

@@ -6,12 +6,12 @@ import numpy as np
 
 from comprope.rope.simulator.rope import CompensationRope
 
-from ..prescribed_trip import INTERVAL, Floats, ends_path, record, ride
-from ..presets.paper_installations import TOWER, building, up
-from ..report.finding import Finding
+from ..prescribed_trip import INTERVAL, Floats, ends_path, record_trip, simulate_trip
+from ..presets.paper_installations import TOWER, installation, trip_up
+from ..report.comparison_report import ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels, plain_log
-from .check import Check, judged
+from .check import Check, pass_or_fail
 
 DISTANCE, UNTIL = 20.0, 14.0  # m, s
 HEIGHTS = (0.5, 10.0)  # m
@@ -27,11 +27,11 @@ def mirrored(path: Floats) -> Floats:
 
 def mirror_difference() -> float:
     """Largest difference [m] between a trip up and its mirror image, displacements at HEIGHTS with sides exchanged."""
-    model, trip = building(TOWER), up(TOWER, DISTANCE)
+    model, trip = installation(TOWER), trip_up(TOWER, DISTANCE)
     plain, image = CompensationRope(model), CompensationRope(model)
     image.solve_equilibrium(model.shaft.height - trip.origin, trip.origin)
     largest = 0.0
-    for k, _ in enumerate(ride(plain, trip, UNTIL)):
+    for k, _ in enumerate(simulate_trip(plain, trip, UNTIL)):
         for side, other in (("car", "counterweight"), ("counterweight", "car")):
             for height in HEIGHTS:
                 a, b = plain.lateral_displacement(side, height)[0], image.lateral_displacement(other, height)[0]
@@ -42,9 +42,9 @@ def mirror_difference() -> float:
 
 def restart_differs() -> bool:
     """Whether a restart from a saved state, in another instance of the rope, changes any bit of the result."""
-    model, trip = building(TOWER), up(TOWER, DISTANCE)
+    model, trip = installation(TOWER), trip_up(TOWER, DISTANCE)
     rope, other = CompensationRope(model), CompensationRope(model)
-    steps = list(enumerate(ride(rope, trip, 6.0)))
+    steps = list(enumerate(simulate_trip(rope, trip, 6.0)))
     other.solve_equilibrium(trip.origin, model.shaft.height - trip.origin)
     other.state.from_bytes(rope.state.to_bytes())
     for k in range(steps[-1][0], steps[-1][0] + 150):
@@ -53,30 +53,30 @@ def restart_differs() -> bool:
     return rope.state.to_bytes() != other.state.to_bytes()
 
 
-def ledger(step: float, damping: float = 0.0) -> tuple[Floats, Floats]:
+def energy_balance(step: float, damping: float = 0.0) -> tuple[Floats, Floats]:
     """Times [s] and energy [J] not accounted for on the trip, and that exchanged with the ends so far (times, 2)."""
-    model = building(TOWER, {"solver.step": step, "solver.numerical_damping": damping})
-    return record(model, up(TOWER, DISTANCE), UNTIL, lambda rope: np.array([rope.energy_residual, rope.energies()["ends"]]))
+    model = installation(TOWER, {"solver.step": step, "solver.numerical_damping": damping})
+    return record_trip(
+        model, trip_up(TOWER, DISTANCE), UNTIL, lambda rope: np.array([rope.energy_residual, rope.energies()["ends"]])
+    )
 
 
-def _run() -> Finding:
+def _run() -> ComparisonReport:
     mirror, restart = mirror_difference(), restart_differs()
-    series = {step: ledger(step) for step in STEPS}
+    series = {step: energy_balance(step) for step in STEPS}
     left = np.array([np.abs(seen[:, 0]).max() for _, seen in series.values()])
     scale = float(np.ptp(series[STEPS[1]][1][:, 1]))
     share = float(left[1] / scale)
-    facts = [
-        judged("trip and its mirror image", f"equal within {ROUNDING:g} m", f"{mirror:.1e} m at most", mirror < ROUNDING),
-        judged(
-            "restart from a saved state", "bitwise equal", "differs" if restart else "bitwise equal", not restart
-        ),
-        judged(
+    comparisons = [
+        pass_or_fail("trip and its mirror image", f"equal within {ROUNDING:g} m", f"{mirror:.1e} m at most", mirror < ROUNDING),
+        pass_or_fail("restart from a saved state", "bitwise equal", "differs" if restart else "bitwise equal", not restart),
+        pass_or_fail(
             "energy residual, step 4 ms",
             f"under 0.1 % of the {scale:.0f} J exchanged by the ends",
             f"{100 * share:.4f} %",
             share < 1e-3,
         ),
-        judged("the same at half the step", "less", f"{left[2] / left[1]:.2f} of it", bool(left[2] < left[1])),
+        pass_or_fail("the same at half the step", "less", f"{left[2] / left[1]:.2f} of it", bool(left[2] < left[1])),
     ]
     text = (
         f"A trip of {DISTANCE:g} m up the tower and {UNTIL:g} s. Energy residual: stored energy minus its initial value, minus "
@@ -85,7 +85,7 @@ def _run() -> Finding:
     )
     rows = [(f"{1e3 * step:g}", f"{value:.2e}") for step, value in zip(STEPS, left, strict=True)]
     table = Table(("step [ms]", "energy residual [J]"), rows)
-    return Finding(facts, [text, Picture("verify_energy", _draw(series, left)), table])
+    return ComparisonReport(comparisons, [text, Picture("verify_energy", _draw(series, left)), table])
 
 
 def _draw(series: dict[float, tuple[Floats, Floats]], left: Floats) -> Any:

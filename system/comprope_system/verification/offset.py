@@ -10,11 +10,11 @@ from comprope.rope.simulator.rope import CompensationRope
 
 from ..modal.hanging_string import side_string
 from ..prescribed_trip import Floats, side_shape
-from ..presets.paper_installations import TOWER, building, with_sheave
-from ..report.finding import Finding
+from ..presets.paper_installations import TOWER, installation, sheave_changes
+from ..report.comparison_report import ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels
-from .check import Check, judged
+from .check import Check, pass_or_fail
 
 STIFFNESSES = (5.0, 10.0, 20.0, 40.0)  # N m2
 MASSES = (60.0, 120.0, 240.0)  # kg
@@ -63,7 +63,7 @@ class Row:
 
 def _tower(stiffness: float, mass: float, changes: dict[str, float] | None = None) -> Base:
     """The tower with this bending stiffness [N m2] and sheave mass [kg]."""
-    return building(TOWER, with_sheave(TOWER, mass) | {"rope.bending_stiffness": stiffness} | (changes or {}))
+    return installation(TOWER, sheave_changes(TOWER, mass) | {"rope.bending_stiffness": stiffness} | (changes or {}))
 
 
 def _row(stiffness: float, mass: float) -> Row:
@@ -71,11 +71,11 @@ def _row(stiffness: float, mass: float) -> Row:
     return Row(stiffness, mass, at_rest(_tower(stiffness, mass, RIGID)), closed_form(model, HEIGHTS), at_rest(model))
 
 
-def _run() -> Finding:
+def _run() -> ComparisonReport:
     rows = [_row(stiffness, mass) for mass in MASSES for stiffness in STIFFNESSES]
     worst = max(row.worst for row in rows)
-    facts = [
-        judged(
+    comparisons = [
+        pass_or_fail(
             "displacement / closed form, rigid groove",
             f"1 within {100 * ALLOWED:g} %",
             f"within {100 * worst:.2f} %",
@@ -102,7 +102,7 @@ def _run() -> Finding:
         "preset's groove and mesh [%]",
     )
     table = Table(head, numbers, "Outward displacement 2 m above the axle, 50 m tower, car at the bottom")
-    return Finding(facts, [text, Picture("verify_offset", _draw(rows)), table])
+    return ComparisonReport(comparisons, [text, Picture("verify_offset", _draw(rows)), table])
 
 
 def _draw(rows: list[Row]) -> Any:

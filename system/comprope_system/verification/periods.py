@@ -6,19 +6,19 @@ import numpy as np
 
 from ..modal.hanging_string import side_string
 from ..modal.modes import Modes, modes
-from ..presets.paper_installations import BUILDING, building
-from ..report.finding import Finding
+from ..presets.paper_installations import BUILDING, installation
+from ..report.comparison_report import ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels
-from .check import Check, judged
+from .check import Check, pass_or_fail
 
 CAR = 22.0  # m
 COUNT = 12
 ALLOWED = 1e-3
 
 
-def _run() -> Finding:
-    model = building(BUILDING)
+def _run() -> ComparisonReport:
+    model = installation(BUILDING)
     found = modes(model, CAR, COUNT)
     rows = []
     for mode in found.modes:
@@ -26,8 +26,8 @@ def _run() -> Finding:
             string = side_string(model, CAR, mode.place)
             rows.append((mode, string.period(mode.half_waves), string.wkb_period(mode.half_waves)))
     worst = max(abs(mode.period / exact - 1.0) for mode, exact, _ in rows)
-    facts = [
-        judged(
+    comparisons = [
+        pass_or_fail(
             "periods of the lateral modes / those of the string",
             f"1 within {100 * ALLOWED:g} %",
             f"within {100 * worst:.3f} %",
@@ -51,7 +51,7 @@ def _run() -> Finding:
         for mode, exact, wkb in rows
     ]
     head = ("side", "half waves", "model [s]", "string, Bessel [s]", "string, WKB [s]", "model / Bessel - 1 [‰]")
-    return Finding(facts, [text, Table(head, numbers), Picture("verify_modes", _draw(found))])
+    return ComparisonReport(comparisons, [text, Table(head, numbers), Picture("verify_modes", _draw(found))])
 
 
 def _draw(found: Modes) -> Any:

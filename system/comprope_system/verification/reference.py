@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 
 from ..prescribed_trip import Floats
-from ..report.finding import Finding
+from ..report.comparison_report import ComparisonReport
 from ..report.page import Picture, Table
 from ..report.plot_style import COLOURS, label, legend, panels
-from .check import Check, judged
+from .check import Check, pass_or_fail
 from .free_rope import Hanging, swing_sideways
 
 SERIES = Path(__file__).with_name("data") / "free_rope.csv"
@@ -29,18 +29,18 @@ def rms(difference: Floats) -> float:
     return float(np.sqrt(np.mean(difference**2)))
 
 
-def _run() -> Finding:
+def _run() -> ComparisonReport:
     time, middle, bottom = reference()
     rows, last = [], middle
     for elements, step in RUNS:
         _, last, own_bottom = swing_sideways(Hanging(elements), step, UNTIL, EVERY)
         rows.append((elements, step, rms(last - middle), rms(own_bottom - bottom)))
     finest = rows[-1]
-    facts = [
-        judged(
+    comparisons = [
+        pass_or_fail(
             "middle of the rope, rms over 10 s", f"under {1e3 * ALLOWED:g} mm", f"{1e3 * finest[2]:.4f} mm", finest[2] < ALLOWED
         ),
-        judged("lower end, rms over 10 s", f"under {1e3 * ALLOWED:g} mm", f"{1e3 * finest[3]:.5f} mm", finest[3] < ALLOWED),
+        pass_or_fail("lower end, rms over 10 s", f"under {1e3 * ALLOWED:g} mm", f"{1e3 * finest[3]:.5f} mm", finest[3] < ALLOWED),
     ]
     text = (
         "Rope of 50 m, 1.2 kg/m, EA 1e7 N, EI 20 N m², 60 kg free at the lower end, no damping; the upper end moves by 0.05 "
@@ -52,7 +52,7 @@ def _run() -> Finding:
     table = Table(
         ("elements", "step [ms]", "middle, rms [mm]", "lower end, rms [mm]"), numbers, "Difference from the other program"
     )
-    return Finding(facts, [text, table, Picture("verify_reference", _draw(time, middle, last))])
+    return ComparisonReport(comparisons, [text, table, Picture("verify_reference", _draw(time, middle, last))])
 
 
 def _draw(time: Floats, middle: Floats, own: Floats) -> Any:

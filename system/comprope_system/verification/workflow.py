@@ -9,7 +9,7 @@ from comprope.atomic_files import require_writable
 from comprope.errors import CompropeError, InputError
 from comprope.validation_messages import suggestion
 
-from ..report.finding import Finding
+from ..report.comparison_report import ComparisonReport
 from ..report.page import Section, save_page, save_pictures
 from .check import PASS, Check, verdicts
 
@@ -22,23 +22,23 @@ LEAD = (
 )
 
 
-def run(names: Sequence[str], out: Path) -> dict[str, Finding]:
+def run(names: Sequence[str], out: Path) -> dict[str, ComparisonReport]:
     """Run checks by name (all if none) and write figures and page; raises `CompropeError` at the end if one has failed."""
     checks = [find(name) for name in names or NAMES]
     require_writable(out / PAGE)
-    findings = {}
+    reports = {}
     for check in checks:
-        findings[check.name] = check.run()
-        for fact in findings[check.name].facts:
+        reports[check.name] = check.run()
+        for fact in reports[check.name].comparisons:
             sys.stdout.write(f"{fact.verdict:<5} {fact.what}: expected {fact.stated}; obtained {fact.obtained}\n")
-    sections = [check.section(findings[check.name]) for check in checks]
-    facts = [fact for finding in findings.values() for fact in finding.facts]
+    sections = [check.section(reports[check.name]) for check in checks]
+    comparisons = [fact for comparison_report in reports.values() for fact in comparison_report.comparisons]
     save_pictures(out, sections)
-    save_page(out / PAGE, TITLE, LEAD, [Section("summary", "Summary", [verdicts(facts)]), *sections])
+    save_page(out / PAGE, TITLE, LEAD, [Section("summary", "Summary", [verdicts(comparisons)]), *sections])
     sys.stdout.write(f"written {out / PAGE}\n")
-    if failed := [fact.what for fact in facts if fact.verdict != PASS]:
-        raise CompropeError(f"verification: {len(failed)} of {len(facts)} checks failed: {'; '.join(failed)}")
-    return findings
+    if failed := [fact.what for fact in comparisons if fact.verdict != PASS]:
+        raise CompropeError(f"verification: {len(failed)} of {len(comparisons)} checks failed: {'; '.join(failed)}")
+    return reports
 
 
 def find(name: str) -> Check:

@@ -14,9 +14,9 @@ from numpy.typing import ArrayLike
 
 from comprope.rope.parameters import Base
 
-from .frames import DOWN, Frame, at_rest
+from .frames import DEPTHS, Frame, rest_shapes
 
-LARGEST, NOTHING = 32767, -32768
+LARGEST_INTEGER, NO_VALUE = 32767, -32768
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Trace:
     measured: tuple[ArrayLike, ArrayLike] | None = None
 
 
-def film(model: Base, frames: Sequence[Frame], interval: float, traces: Sequence[Trace]) -> dict[str, Any]:
+def animation_data(model: Base, frames: Sequence[Frame], interval: float, traces: Sequence[Trace]) -> dict[str, Any]:
     """Animation data with a frame every `interval` [s] for player.js; lengths in m, times in s."""
     return {
         "interval": interval,
@@ -40,35 +40,35 @@ def film(model: Base, frames: Sequence[Frame], interval: float, traces: Sequence
         "pit": model.shaft.pit,
         "radius": model.sheave.radius,
         "sensors": [{"name": one.name, "side": one.side, "height": one.height} for one in model.sensors],
-        "ends": packed([one.ends for one in frames]),
-        "down": packed(DOWN),
-        "sides": packed([one.sides for one in frames]),
-        "rest": packed(at_rest(model, frames)),
-        "arc": packed([one.arc for one in frames]),
-        "axle": packed([one.axle for one in frames]),
-        "angle": packed([one.angle for one in frames]),
+        "ends": encode_array([one.ends for one in frames]),
+        "down": encode_array(DEPTHS),
+        "sides": encode_array([one.sides for one in frames]),
+        "rest": encode_array(rest_shapes(model, frames)),
+        "arc": encode_array([one.arc for one in frames]),
+        "axle": encode_array([one.axle for one in frames]),
+        "angle": encode_array([one.angle for one in frames]),
         "traces": [_trace(one) for one in traces],
     }
 
 
-def packed(values: ArrayLike) -> dict[str, Any]:
+def encode_array(values: ArrayLike) -> dict[str, Any]:
     """Encode an array of any shape as {"shape", "scale", "data"}; NaN becomes NOTHING."""
     array = np.asarray(values, float)
     finite = np.isfinite(array)
-    scale = float(np.max(np.abs(array[finite]), initial=0.0)) / LARGEST or 1.0
-    whole = np.where(finite, np.rint(np.where(finite, array, 0.0) / scale), NOTHING).astype("<i2")
+    scale = float(np.max(np.abs(array[finite]), initial=0.0)) / LARGEST_INTEGER or 1.0
+    whole = np.where(finite, np.rint(np.where(finite, array, 0.0) / scale), NO_VALUE).astype("<i2")
     return {"shape": list(array.shape), "scale": scale, "data": base64.b64encode(whole.tobytes()).decode()}
 
 
-def unpacked(table: dict[str, Any]) -> np.ndarray:
-    """Decode the result of `packed`, as player.js does."""
+def decode_array(table: dict[str, Any]) -> np.ndarray:
+    """Decode the result of `encode_array`, as player.js does."""
     whole = np.frombuffer(base64.b64decode(table["data"]), "<i2").reshape(table["shape"])
-    return np.where(whole == NOTHING, np.nan, whole * table["scale"])
+    return np.where(whole == NO_VALUE, np.nan, whole * table["scale"])
 
 
 def _trace(one: Trace) -> dict[str, Any]:
     table: dict[str, Any] = {"name": one.name, "unit": one.unit, "sensor": one.sensor}
-    table |= {"time": packed(one.time), "value": packed(one.value)}
+    table |= {"time": encode_array(one.time), "value": encode_array(one.value)}
     if one.measured:
-        table["measured"] = {"time": packed(one.measured[0]), "value": packed(one.measured[1])}
+        table["measured"] = {"time": encode_array(one.measured[0]), "value": encode_array(one.measured[1])}
     return table

@@ -12,13 +12,13 @@ from ...prescribed_trip import Floats, side_shape
 
 SIDES = ("car", "counterweight")
 POINTS = 80  # along each side, from its end down to the axle's height
-DOWN = (
+DEPTHS = (
     1.0 - (1.0 - np.linspace(0.0, 1.0, POINTS)) ** 1.5
 )  # how far down each is: closer together where the rope bends onto the sheave
 ARC = 48  # along the rope round the sheave
 REACH = 1.6  # radii above the axle up to which that rope is kept
-RATE = 20.0  # frames a second: a rope's lower modes in a shaft are slower than 2 Hz
-MOST = 1200  # frames; a longer trip has fewer of them a second
+FRAME_RATE = 20.0  # frames a second: a rope's lower modes in a shaft are slower than 2 Hz
+MAX_FRAMES = 1200  # frames; a longer trip has fewer of them a second
 
 
 @dataclass(frozen=True)
@@ -42,14 +42,14 @@ class Recording:
     interval: float
 
 
-def look(rope: CompensationRope) -> Frame:
+def frame_of(rope: CompensationRope) -> Frame:
     """Frame of a rope in its present state. Points of a side that folds back below a height are NaN."""
     n, q, pit = rope.n, rope.state.q, rope.model.shaft.pit
     ends = np.array([-q[0], -q[n - 1]])
     return Frame(ends, _sides(rope), _arc(rope, pit), pit - float(q[n]), float(q[2 * n + 1]))
 
 
-def at_rest(model: Base, frames: Iterable[Frame]) -> list[Floats]:
+def rest_shapes(model: Base, frames: Iterable[Frame]) -> list[Floats]:
     """Static shapes (2, POINTS) [m] of the sides for the positions of the ends in each frame."""
     rope, found = CompensationRope(model), []
     for frame in frames:
@@ -60,7 +60,7 @@ def at_rest(model: Base, frames: Iterable[Frame]) -> list[Floats]:
 
 def _sides(rope: CompensationRope) -> Floats:
     n, q = rope.n, rope.state.q
-    heights = [-end + DOWN * (end - q[n]) for end in (q[0], q[n - 1])]
+    heights = [-end + DEPTHS * (end - q[n]) for end in (q[0], q[n - 1])]
     return np.array([side_shape(rope, side, at) for side, at in zip(SIDES, heights, strict=True)])
 
 
@@ -72,7 +72,7 @@ def _arc(rope: CompensationRope, pit: float) -> Floats:
     return np.array([np.interp(at, nodes, q[n + 1 : -1]), pit - np.interp(at, nodes, q[:n])])
 
 
-class Camera:
+class FrameRecorder:
     """Records a frame every few communication steps of `step` [s]; called after each step, including the start.
 
     `rope` returns the present rope object, which may be replaced before the first step.
@@ -96,6 +96,6 @@ class Camera:
     def __call__(self, count: int, total: int) -> None:
         """After `count` of `total` steps."""
         if count == 0:
-            self._stride = max(1, round(1.0 / (RATE * self._step)), -(-total // MOST))
+            self._stride = max(1, round(1.0 / (FRAME_RATE * self._step)), -(-total // MAX_FRAMES))
         if count % self._stride == 0:
-            self.frames.append(look(self._rope()))
+            self.frames.append(frame_of(self._rope()))

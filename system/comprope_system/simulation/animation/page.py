@@ -10,7 +10,7 @@ from ...report.page import Animation, Picture, Section, Table, save_page
 from ..measured_run import Run
 from ..plot import draw_trip
 from ..trip_simulation import Simulated, summary
-from .encoding import film
+from .encoding import animation_data
 from .frames import Recording
 from .traces import traces
 
@@ -30,7 +30,7 @@ def save_trip_page(
     """Write the page of a simulated trip of the model called `name`, completely or not at all."""
     car = trip.table["car_position"]
     lead = _LEAD.format(distance=float(car.max() - car.min()), height=model.shaft.height, mass=model.sheave.mass)
-    moving = Animation("trip", film(model, recording.frames, recording.interval, traces(trip, measured)), _CAPTION)
+    moving = Animation("trip", animation_data(model, recording.frames, recording.interval, traces(trip, measured)), _CAPTION)
     sections = [
         Section("motion", "Animation", [moving]),
         Section("figures", "Key figures", [Table(("", ""), summary(trip))]),

@@ -9,7 +9,7 @@ from ..trip_simulation import Simulated
 from .encoding import Trace
 
 SAMPLES = 2400  # of a curve at most; a page shows about 500 across
-OTHERS = (  # column, name, factor, unit
+OTHER_TRACES = (  # column, name, factor, unit
     ("car_velocity", "speed of the car", 1.0, "m/s"),
     ("sheave_displacement", "height of the sheave", 1e3, "mm"),
     ("sheave_force", "force on the sheave", 1.0, "N"),
@@ -25,7 +25,7 @@ def traces(simulated: Simulated, measured: Run | None = None) -> list[Trace]:
         Trace(name, "mm", time, 1e3 * table[name], k, _measured(simulated, name, measured))
         for k, name in enumerate(simulated.sensors)
     ]
-    return [*seen, *(Trace(name, unit, time, factor * table[column]) for column, name, factor, unit in OTHERS)]
+    return [*seen, *(Trace(name, unit, time, factor * table[column]) for column, name, factor, unit in OTHER_TRACES)]
 
 
 def _measured(simulated: Simulated, name: str, measured: Run | None) -> tuple[ArrayLike, ArrayLike] | None:
