@@ -1,6 +1,6 @@
 """Processor seconds per simulated second of the rope's FMUs through fmpy, on the 45 m trip in the 50 m tower.
 
-    python benchmarks/fmu_cost.py dist/CompensationRope-native.fmu dist/CompensationRope.fmu [--runs 3]
+    python benchmarks/fmu_cost.py dist/CompensationRope_native.fmu dist/CompensationRope.fmu [--runs 3]
 
 All real outputs are read every 20 ms. The model without an FMU around it comes last. Of several runs the cheapest counts.
 """

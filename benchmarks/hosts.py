@@ -1,6 +1,6 @@
 """The native FMU in a host without Python: under sanitizers, under valgrind, and its Windows binary under wine.
 
-    python benchmarks/hosts.py dist/CompensationRope-native.fmu [dist/CompensationRope-native-fmi3.fmu]
+    python benchmarks/hosts.py dist/CompensationRope_native.fmu [dist/CompensationRope_native_fmi3.fmu]
 
 The host is for FMI 2.0. The C sources compiled under sanitizers also take random calls from Python, for each FMU given.
 Needs gcc (its address and undefined-behaviour sanitizers); valgrind if it is there, and for Windows ziglang and wine64.

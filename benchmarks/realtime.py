@@ -1,6 +1,6 @@
 """Computing time of one communication step of 10 ms: median, 99.9th percentile and maximum, against its 10 ms budget.
 
-    python benchmarks/realtime.py dist/CompensationRope-native.fmu dist/CompensationRope.fmu [--steps 3000]
+    python benchmarks/realtime.py dist/CompensationRope_native.fmu dist/CompensationRope.fmu [--steps 3000]
 
 Each FMU rides the rope of the 50 m tower and of the 200 m building up a trip, in this process, through fmpy: a step is
 setting two positions, stepping and reading all real outputs. The model without an FMU around it comes last. Elapsed time

@@ -1,6 +1,6 @@
 """Long test of an FMU, a day of random trips: memory, energy residual and failures.
 
-    python benchmarks/soak.py dist/CompensationRope-native.fmu [--hours 24] [--step 0.02] [--element 0.05] [--seed 1]
+    python benchmarks/soak.py dist/CompensationRope_native.fmu [--hours 24] [--step 0.02] [--element 0.05] [--seed 1]
 
 The car of the 50 m tower goes from landing to landing, at least 3 m, with 2.5 m/s, 0.8 m/s2 and 0.8 m/s3 at most, waits up
 to 20 s, and goes on, at random. Exchanged is the energy that passes the car's end of the rope either way.

@@ -39,10 +39,10 @@ def tower() -> ModelInterface:
 
 @cache
 def native_fmu(ending: str = "native") -> Path:
-    """The FMU for FMI 2.0 or, ending in `native-fmi3`, for FMI 3.0; building both takes half a minute."""
+    """The FMU for FMI 2.0 or, ending in `native_fmi3`, for FMI 3.0; building both takes half a minute."""
     folder = entry_folder("tests", _digest())
     with verified_files(folder, "*.fmu"):
-        if not (made := folder / f"CompensationRope-{ending}.fmu").is_file():
+        if not (made := folder / f"CompensationRope_{ending}.fmu").is_file():
             build_native(tower(), folder, ORIGIN, FMI_VERSIONS, [linker.host_target()])
     return made
 

@@ -1,5 +1,6 @@
 """Drive and rope together: as FMUs and directly the same numbers, and errors in the FMU's own words."""
 
+import shutil
 import tempfile
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from comprope.errors import InputError, SimulationError
 from comprope.rope.model_file import load, with_changes
 from comprope_system import presets
 from comprope_system.cosim import fmu_cache
+from comprope_system.cosim.fmu_cache import NamedFmus
 from comprope_system.cosim.fmu_participant import FmuParticipant
 from comprope_system.presets.inputs import load_drive
 from comprope_system.simulation.elevator import driven_elevator
@@ -65,15 +67,34 @@ def test_the_drive_hardly_feels_the_rope_but_does(model, reference):
     assert 0.0 < difference < 1e-3
 
 
-def test_a_stale_fmu_in_dist_is_not_used(tmp_path, monkeypatch):
-    monkeypatch.setenv("COMPROPE_CACHE", str(tmp_path / "cache"))
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "dist").mkdir()
-    (tmp_path / "dist" / "ElevatorDrive.fmu").write_bytes(b"no FMU at all")
+def test_an_fmu_is_used_only_if_it_is_our_own_or_named(tmp_path, monkeypatch):
     built = fmu_cache.drive_fmu()
-    assert tmp_path / "cache" in built.parents
-    (tmp_path / "dist" / "ElevatorDrive.fmu").write_bytes(built.read_bytes())
-    assert fmu_cache.drive_fmu() == Path("dist/ElevatorDrive.fmu")
+    (tmp_path / "dist").mkdir()
+    shutil.copy(built, tmp_path / "dist")
+    monkeypatch.chdir(tmp_path)
+    assert fmu_cache.drive_fmu() == built
+    named = NamedFmus.read(["dist/ElevatorDrive.fmu"])
+    assert named.drive() == Path("dist/ElevatorDrive.fmu")
+    assert named.rope(4, ()) == fmu_cache.rope_fmu(4)
+
+
+def test_files_that_are_no_fmus_of_ours_are_refused(tmp_path):
+    (tmp_path / "text.fmu").write_text("no FMU at all")
+    drive = fmu_cache.drive_fmu()
+    for files, sentence in (
+        ([tmp_path / "absent.fmu"], "absent.fmu: cannot be read: No such file"),
+        ([tmp_path / "text.fmu"], "text.fmu: not an FMU: "),
+        ([drive, drive], f"{drive}: {drive} is an FMU of ElevatorDrive too; one of each model is accepted"),
+    ):
+        with pytest.raises(InputError) as caught:
+            NamedFmus.read(files)
+        assert sentence in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_a_named_fmu_gives_the_same_numbers(model, reference):
+    named = NamedFmus.read([fmu_cache.drive_fmu(), fmu_cache.rope_fmu(len(model.sensors))])
+    with driven_elevator(model, load_drive(None, TRIP), fmus=named) as elevator:
+        assert simulate(elevator, [one.name for one in model.sensors], Timing(2.0, 0.02)).table.equals(reference)
 
 
 def test_what_an_fmu_refuses_is_told_in_its_words():

@@ -10,10 +10,12 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
+from comprope.errors import InputError
 from comprope.fmi.reference_result import DURATION, INPUT_FILE, OUTPUT_FILE, OUTPUT_INTERVAL, reference_result
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import interface
 from comprope_system import presets
+from comprope_system.fmu_export.result import FmuResult
 
 ROOT = Path(__file__).parent.parent
 
@@ -59,7 +61,10 @@ def test_the_reference_result_inside_is_met(built: tuple[Path, Path], which: int
 
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
-    [(("--model", "absent.toml"), "absent.toml: cannot be read"), (("--sensors", "-1"), "--sensors -1: 0 to 1000 is accepted")],
+    [
+        (("--model", "absent.toml"), "absent.toml: cannot be read"),
+        (("--sensors", "-1"), "sensors = -1: a whole number from 0 to 1000 is accepted"),
+    ],
 )
 def test_bad_input_is_one_line_and_leaves_no_file(tmp_path: Path, arguments: tuple[str, ...], sentence: str) -> None:
     result = run("--out", tmp_path, *arguments)
@@ -72,3 +77,13 @@ def test_in_a_low_shaft_the_reference_rises_less() -> None:
     model = with_changes(load(presets.model_path("tower50")), {"shaft.height": 1.0, "rope.element_length": 0.1})
     last = reference_result(interface(model))[INPUT_FILE].decode().splitlines()[-1]
     assert [float(value) for value in last.split(",")] == [4.0, 0.25, 0.75]
+
+
+def test_files_are_written_all_or_none(tmp_path: Path) -> None:
+    """What stands in the way of the second file leaves the first as it was."""
+    result = FmuResult({"one.fmu": b"new", "two.fmu": b"new"}, load(presets.model_path("tower50")), "tower50")
+    (tmp_path / "one.fmu").write_bytes(b"old")
+    (tmp_path / "two.fmu").mkdir()
+    with pytest.raises(InputError, match=r"two\.fmu: is a folder"):
+        result.save(tmp_path)
+    assert (tmp_path / "one.fmu").read_bytes() == b"old" and len(list(tmp_path.iterdir())) == 2

@@ -27,7 +27,7 @@ from comprope.fmi.reference_result import INPUT_FILE, OUTPUT_FILE
 from comprope.native import linker
 from comprope.native.c_source import quoted
 from comprope.native.fmi2_package import universal_binary
-from comprope.native.llvm_ir import require_no_python
+from comprope.native.llvm_ir import require_no_python, sizes
 from comprope.native.targets import TARGETS
 from comprope.rope.runtime.status import MESSAGES, require_success
 from comprope_system import presets
@@ -269,7 +269,7 @@ def built_apart(out: Path, fmu: Path, sources: Path, *effects: Path) -> Path:
     places = os.pathsep.join([str(sources), os.environ.get("PYTHONPATH", "")])
     environment = os.environ | {"PYTHONPATH": places, "COMPROPE_ALLOW_CODE": "1"}
     subprocess.run([sys.executable, "-c", BUILD, *given], env=environment, check=True)
-    assert sorted(path.name for path in out.iterdir()) == [native_fmu("native-fmi3").name, fmu.name]
+    assert sorted(path.name for path in out.iterdir()) == [native_fmu("native_fmi3").name, fmu.name]
     return out / fmu.name
 
 
@@ -281,7 +281,7 @@ def test_same_source_same_bytes(fmu: Path, tmp_path: Path) -> None:
         file.seek(0, 2)
         file.write("# a remark\n")
     assert built_apart(out, fmu, copy.parent).read_bytes() == fmu.read_bytes()
-    other = native_fmu("native-fmi3")
+    other = native_fmu("native_fmi3")
     assert (out / other.name).read_bytes() == other.read_bytes()
 
 
@@ -394,3 +394,12 @@ def test_one_file_for_several_processors() -> None:
     for place, part in enumerate(parts):
         at = int.from_bytes(whole[8 + 20 * place + 8 :][:4], "big")
         assert at % 16384 == 0 and whole[at : at + len(part)] == part
+
+
+def test_modules_in_the_present_folder_are_not_run(tmp_path, monkeypatch):
+    """The kernels are translated in a process of its own, which must not take a stranger's folder for its library."""
+    for name in ("numba", "json", "comprope"):
+        (tmp_path / f"{name}.py").write_text("from pathlib import Path\nPath('run').touch()\n")
+    monkeypatch.chdir(tmp_path)
+    assert set(sizes({})) == {40, 41, 50}
+    assert not (tmp_path / "run").exists()

@@ -35,7 +35,7 @@ pytestmark = compiler
 
 @pytest.fixture(scope="module")
 def fmu() -> Path:
-    return native_fmu("native-fmi3")
+    return native_fmu("native_fmi3")
 
 
 @pytest.fixture

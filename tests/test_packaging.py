@@ -1,5 +1,6 @@
 """The wheel: it holds all that the program needs, and works outside the repository."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -8,6 +9,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from fmpy import read_model_description
+from fmpy.validation import validate_fmu
 
 ROOT = Path(__file__).parent.parent
 SOURCES = {"comprope": ROOT / "fmu_src" / "comprope", "comprope_system": ROOT / "system" / "comprope_system"}
@@ -48,21 +51,48 @@ def test_the_wheel_has_licence_and_command(wheel):
     assert "comprope = comprope_system.cli:main" in commands
 
 
-def test_the_wheel_works_from_another_folder(wheel, tmp_path):
-    """Unpacked beside the installed dependencies, as pip would put it there."""
+@pytest.fixture(scope="module")
+def site(wheel, tmp_path_factory):
+    """The wheel unpacked beside the installed dependencies, as pip would put it there."""
+    folder = tmp_path_factory.mktemp("site")
     with zipfile.ZipFile(wheel) as archive:
-        archive.extractall(tmp_path / "site")
-    here = tmp_path / "elsewhere"
-    here.mkdir()
-    environment = os.environ | {"PYTHONPATH": str(tmp_path / "site")}
+        archive.extractall(folder)
+    return folder
+
+
+def run(site, folder, *arguments):
+    """Run the command of the unpacked wheel in a folder; returns what it prints."""
+    code = f"import comprope_system.cli as cli; print(cli.__file__); cli.main({list(map(str, arguments))!r})"
+    environment = os.environ | {"PYTHONPATH": str(site)}
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=folder, env=environment, capture_output=True, text=True, timeout=300, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert Path(done.stdout.splitlines()[0]).is_relative_to(site)
+    return done.stdout.splitlines()[1:]
+
+
+def test_the_wheel_works_from_another_folder(site, tmp_path):
     quick = [
         *("simulate", "tower50", "--set", "rope.element_length=0.2", "--set", "shaft.height=12", "--to", "3", "--time", "2"),
         *("--report", "trip.html", "--out", "trip.csv"),
     ]
-    run = f"import comprope_system.cli as cli; print(cli.__file__); cli.main({quick!r})"
-    done = subprocess.run(
-        [sys.executable, "-c", run], cwd=here, env=environment, capture_output=True, text=True, timeout=300, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    assert Path(done.stdout.splitlines()[0]).is_relative_to(tmp_path / "site")
-    assert sorted(path.name for path in here.iterdir()) == ["trip.csv", "trip.html"]
+    run(site, tmp_path, *quick)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["trip.csv", "trip.html"]
+
+
+def test_the_wheel_builds_valid_fmus_of_a_model_file(site, tmp_path):
+    """The copied preset is a stranger's file here, and the licence inside is that of the package."""
+    shutil.copy(SOURCES["comprope_system"] / "presets" / "tower50.toml", tmp_path / "mine.toml")
+    quick = ["--set", "rope.element_length=0.2", "--set", "shaft.height=12", "--sensors", "5"]
+    told = run(site, tmp_path, "fmu", "mine.toml", *quick, "--ssp", "--out", "made", "--json", "fmus.json")
+    names = ["CompensationRope.fmu", "ElevatorDrive.fmu", "Elevator.ssp"]
+    assert told[-3:] == [f"written {Path('made') / name}" for name in names]
+    assert sorted(path.name for path in (tmp_path / "made").iterdir()) == sorted(names)
+    assert [one["file"] for one in json.loads((tmp_path / "fmus.json").read_text())["files"]] == names
+    rope = tmp_path / "made" / names[0]
+    assert validate_fmu(str(rope)) == validate_fmu(str(tmp_path / "made" / names[1])) == []
+    variables = {one.name: one.start for one in read_model_description(str(rope)).modelVariables}
+    assert variables["shaft.height"] == "12.0" and "sensors[5].height" in variables and "sensors[6].height" not in variables
+    with zipfile.ZipFile(rope) as archive:
+        assert archive.read("documentation/licenses/license.txt") == (ROOT / "LICENSE").read_bytes()

@@ -17,7 +17,7 @@ from comprope_system.presets import model_path
 from . import virtual_elevator
 
 COARSE = {"rope.element_length": 0.2, "solver.step": 0.005, "shaft.height": 12.0}
-FUNCTIONS = ("add", "compare", "design", "diagnose", "improve", "modes", "simulate", "tune")
+FUNCTIONS = ("add", "compare", "design", "diagnose", "fmu", "improve", "modes", "simulate", "tune")
 SCRIPT = """
 import sys
 import comprope_system

@@ -18,6 +18,7 @@ from comprope import user_cache
 from comprope.rope.compiler.disk_cache import compiled_files, source_file
 from comprope.user_cache import KEPT, RECENT, entry_folder, verified_files, write_whole
 from comprope_system.cosim import fmu_cache
+from comprope_system.fmu_export.recipes import Recipe
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="owner and mode are not checked on Windows")
 root = pytest.mark.skipif(sys.platform == "win32" or os.getuid() != 0, reason="only root can give a folder to another user")
@@ -109,14 +110,12 @@ def test_kernels_stay_in_the_cache_whatever_folder_numba_is_given(folders, monke
 @pytest.mark.parametrize("damage", ["cut short", "foreign", "a folder"])
 def test_a_damaged_fmu_is_built_anew(damage, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(
-        fmu_cache, "build", lambda interface, _packages, _entry, out, *_: write_whole(out / "ElevatorDrive.fmu", "new")
-    )
+    monkeypatch.setattr(Recipe, "build", lambda _recipe, out, reference: write_whole(out / "ElevatorDrive.fmu", "new"))
     fmu = fmu_cache.drive_fmu()
     assert fmu.is_relative_to(tmp_path / "named" / "fmu") and fmu.read_text() == "new"
     DAMAGES[damage](fmu)
     assert fmu_cache.drive_fmu() == fmu and fmu.read_text() == "new"
-    monkeypatch.setattr(fmu_cache, "build", None)  # not called where the file is whole
+    monkeypatch.setattr(Recipe, "build", None)  # not called where the file is whole
     assert fmu_cache.drive_fmu().read_text() == "new"
 
 

@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .fmu_export.workflow import fmu
     from .identification.workflow import add, compare, diagnose, improve
     from .modal.workflow import modes
     from .sheave_design.workflow import BuildingSway, DesignOptions, design
@@ -23,9 +24,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BuildingSway", "CarMotion", "DesignOptions", "TuningOptions",
-    "add", "compare", "design", "diagnose", "improve", "modes", "simulate", "tune",
+    "add", "compare", "design", "diagnose", "fmu", "improve", "modes", "simulate", "tune",
 ]  # fmt: skip
 _MODULES = {
+    "fmu_export": ("fmu",),
     "identification": ("add", "compare", "diagnose", "improve"),
     "modal": ("modes",),
     "sheave_design": ("BuildingSway", "DesignOptions", "design"),

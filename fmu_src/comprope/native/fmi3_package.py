@@ -72,4 +72,4 @@ def icon_files() -> dict[str, bytes]:
     return {"terminalsAndIcons/terminalsAndIcons.xml": text, "terminalsAndIcons/icon.png": icon()}
 
 
-FMI3 = FmiVersion("3.0", "native-fmi3", model_description, binary_files, icon_files)
+FMI3 = FmiVersion("3.0", "native_fmi3", model_description, binary_files, icon_files)

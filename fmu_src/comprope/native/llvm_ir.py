@@ -2,7 +2,7 @@
 
 Runs as a program in a process of its own, since numba fixes processor and optimisation when it is imported:
 
-    python -m comprope.native.llvm_ir code|sizes OUT [EFFECT.py ...]
+    python -P -m comprope.native.llvm_ir code|sizes OUT [EFFECT.py ...]
 
 EFFECT.py are files of a user's own effects, in the order in which they were first run.
 """
@@ -56,7 +56,7 @@ def _apart(what: str, files: Mapping[str, str], settings: dict[str, str]) -> str
         copies = [Path(folder) / f"{k}_{Path(path).name}" for k, path in enumerate(files)]
         for copy, text in zip(copies, files.values(), strict=True):
             copy.write_text(text, encoding="utf-8")
-        command = [sys.executable, "-m", __name__, what, str(out), *map(str, copies)]
+        command = [sys.executable, "-P", "-m", __name__, what, str(out), *map(str, copies)]
         environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2]), "COMPROPE_CACHE": folder}
         environment.pop("COMPROPE_PURE_PYTHON", None)
         result = subprocess.run(command, env=environment | settings, capture_output=True, text=True, check=False)

@@ -34,7 +34,7 @@ def build_native(
     versions: Sequence[FmiVersion] = (FMI2,),
     targets: Sequence[str] = (),
 ) -> list[Path]:
-    """Write `<out>/<name>-<ending of the version>.fmu` for each version, atomically, and return their paths.
+    """Write `<out>/<name>_<ending of the version>.fmu` for each version, atomically, and return their paths.
 
     They have binaries for `targets` (see `targets.TARGETS`), by default all that can be linked for on this system. The
     effects that the model may have are compiled in, a user's own as well. The same sources and tools give the same bytes.
@@ -57,7 +57,7 @@ def build_native(
 
 
 def _file_name(interface: ModelInterface, version: FmiVersion) -> str:
-    return f"{interface.name}-{version.ending}.fmu"
+    return f"{interface.name}_{version.ending}.fmu"
 
 
 def user_effect_files(interface: ModelInterface) -> dict[str, str]:

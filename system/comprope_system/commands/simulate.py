@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 import comprope_system
+from comprope.errors import InputError
 
 from ._parameters import MODEL, SET
 from ._terminal import OutputFile, finish, progress_display, require_files
@@ -21,6 +22,10 @@ TIME = Annotated[float | None, typer.Option(metavar="S", help="Simulated time; d
 STEP = Annotated[float, typer.Option(metavar="S", help="Communication step of the co-simulation.")]
 CAR = Annotated[Path | None, typer.Option(metavar="RUN.csv", help="Prescribe the measured motion; plot measured signals too.")]
 DIRECT = Annotated[bool, typer.Option("--direct", help="Simulate in this process instead of with FMUs; same numbers.")]
+FMU = Annotated[
+    list[Path] | None,
+    typer.Option(metavar="FILE.fmu", help="Use, that is run, this FMU of drive or rope instead of our own. Repeatable."),
+]
 ONE_WAY = Annotated[bool, typer.Option("--one-way", help="One-way coupling: no forces of the rope on the drive.")]
 OUT = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the results, one row per communication step.")]
 PLOT = Annotated[Path | None, typer.Option(metavar="FILE.png", help="Plot the trip; .png, .pdf or .svg.")]
@@ -51,6 +56,7 @@ class RunOptions:
     changes: SET = None
     car: CAR = None
     direct: DIRECT = False
+    fmu: FMU = None
     one_way: ONE_WAY = False
 
 
@@ -76,6 +82,14 @@ def simulate(model: MODEL, motion: MotionOptions, options: RunOptions, files: Fi
             comprope_system.CarMotion(**vars(motion), measured=options.car),
             changes=options.changes, duration=options.time, step=options.step,
             coupling="one-way" if options.one_way else "two-way",
-            fmu=not options.direct and files.report is None, progress=progress,
+            fmu=_fmus(options, files), progress=progress,
         )  # fmt: skip
     finish(result, (files.out, result.to_csv), (files.plot, result.save_plot), (files.report, result.save_html))
+
+
+def _fmus(options: RunOptions, files: Files) -> bool | list[Path]:
+    """Whether to simulate with FMUs, and which; raises `InputError` for contradictory options."""
+    direct = options.direct or files.report is not None
+    if options.fmu and direct:
+        raise InputError("--fmu: an FMU does not output the rope's shape and is not used with --direct or --report")
+    return options.fmu or not direct

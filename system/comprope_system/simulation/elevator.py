@@ -11,7 +11,8 @@ from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.effects import RopeModel
 from comprope.rope.simulator.cosimulation import interface as rope_interface
 
-from ..cosim import Connection, Participant, fmu_cache
+from ..cosim import Connection, Participant
+from ..cosim.fmu_cache import NamedFmus
 from ..cosim.fmu_participant import FmuParticipant
 from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.prescribed_motion import PrescribedMotion
@@ -23,6 +24,7 @@ FORWARD = tuple(Connection("motion", one, "rope", one) for one in MOTIONS)
 BACKWARD = tuple(Connection("rope", one, "motion", one) for one in TENSIONS)
 # The rope's inputs are the drive's outputs of the same step, velocities and accelerations included.
 ROPE_INPUTS = {"inputs_at_end": True, "derivative_inputs": True}
+OWN_FMUS = NamedFmus()
 
 
 @dataclass(frozen=True)
@@ -35,22 +37,24 @@ class Elevator:
 
 
 @contextmanager
-def driven_elevator(model: RopeModel, drive: Drive, direct: bool = False) -> Iterator[Elevator]:
+def driven_elevator(model: RopeModel, drive: Drive, direct: bool = False, fmus: NamedFmus = OWN_FMUS) -> Iterator[Elevator]:
     """Drive and rope, as FMUs or, with `direct`, as models in this process; freed at the end."""
     with ExitStack() as stack:
         interface = drive_interface(drive)
         if direct:
             motion: Participant = InProcessParticipant("motion", interface, {})
         else:
-            motion = stack.enter_context(FmuParticipant("motion", fmu_cache.drive_fmu(), start_values(interface)))
-        yield Elevator((motion, _rope(stack, model, direct)), FORWARD + BACKWARD, True)
+            motion = stack.enter_context(FmuParticipant("motion", fmus.drive(), start_values(interface)))
+        yield Elevator((motion, _rope(stack, model, direct, fmus)), FORWARD + BACKWARD, True)
 
 
 @contextmanager
-def prescribed_elevator(model: RopeModel, trips: Mapping[str, Trip], direct: bool = False) -> Iterator[Elevator]:
+def prescribed_elevator(
+    model: RopeModel, trips: Mapping[str, Trip], direct: bool = False, fmus: NamedFmus = OWN_FMUS
+) -> Iterator[Elevator]:
     """The rope with prescribed motion of car and counterweight; see `PrescribedMotion`."""
     with ExitStack() as stack:
-        yield Elevator((PrescribedMotion("motion", trips), _rope(stack, model, direct)), FORWARD, False)
+        yield Elevator((PrescribedMotion("motion", trips), _rope(stack, model, direct, fmus)), FORWARD, False)
 
 
 def start_values(interface: ModelInterface) -> dict[str, Any]:
@@ -58,9 +62,9 @@ def start_values(interface: ModelInterface) -> dict[str, Any]:
     return {one.name: one.start for role in ("parameter", "input") for one in interface.of_role(role)}
 
 
-def _rope(stack: ExitStack, model: RopeModel, direct: bool) -> Participant:
+def _rope(stack: ExitStack, model: RopeModel, direct: bool, fmus: NamedFmus) -> Participant:
     interface = rope_interface(model)
     if direct:
         return InProcessParticipant("rope", interface, ROPE_INPUTS)
-    path = fmu_cache.rope_fmu(len(model.sensors), model.own_effects)
+    path = fmus.rope(len(model.sensors), model.own_effects)
     return stack.enter_context(FmuParticipant("rope", path, start_values(interface) | ROPE_INPUTS))

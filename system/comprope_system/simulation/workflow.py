@@ -1,5 +1,6 @@
 """The public function `comprope_system.simulate`: one trip of drive and rope."""
 
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import partial
@@ -13,6 +14,7 @@ from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import RopeSimulator
 from comprope.rope.simulator.rope import CompensationRope
 
+from ..cosim.fmu_cache import NamedFmus
 from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.master import Coupling
 from ..parallel.progress import Progress, no_progress
@@ -20,7 +22,7 @@ from ..presets import model_path
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
 from ..presets.overrides import Changes, by_key
 from .animation.frames import FrameRecorder
-from .elevator import Elevator, driven_elevator, prescribed_elevator
+from .elevator import OWN_FMUS, Elevator, driven_elevator, prescribed_elevator
 from .measured_run import read_run
 from .result import SimulationResult
 from .trip_simulation import Timing
@@ -55,7 +57,7 @@ def simulate(
     duration: float | None = None,
     step: float = 0.01,
     coupling: Coupling = "two-way",
-    fmu: bool = False,
+    fmu: bool | Sequence[str | Path] = False,
     progress: Progress = no_progress,
 ) -> SimulationResult:
     """Co-simulate drive and rope through one trip of the car.
@@ -63,9 +65,11 @@ def simulate(
     `model` is a model file, a preset's name or a `RopeModel`; `changes` are values by key, `{"sheave.mass": 90.0}`, also of the
     drive's tables; `duration` [s] is by default that of the trip and 8 s at rest; `step` is the communication step [s];
     `coupling` "one-way" does not apply the rope's forces to the drive. With `fmu` both models are simulated as FMUs, with the
-    same results. Raises `InputError` for invalid input, `SimulationError` if a step does not converge.
+    same results; it may name files of FMUs, which are then run instead of our own. Raises `InputError` for invalid input,
+    `SimulationError` if a step does not converge.
     """
     motion = motion or CarMotion()
+    fmus = None if fmu is False else NamedFmus.read(() if fmu is True else fmu)
     rope_model, drive_changes = _model(model, changes)
     names, measured = [sensor.name for sensor in rope_model.sensors], None
     if motion.measured:
@@ -74,12 +78,12 @@ def simulate(
         rope_model = with_changes(rope_model, measured.changes | own, source)
     elevator: AbstractContextManager[Elevator]
     if measured:
-        elevator, natural = prescribed_elevator(rope_model, measured.trips, not fmu), measured.end
+        elevator, natural = prescribed_elevator(rope_model, measured.trips, fmus is None, fmus or OWN_FMUS), measured.end
     else:
-        elevator, natural = _driven(model, motion, rope_model, drive_changes, fmu)
+        elevator, natural = _driven(model, motion, rope_model, drive_changes, fmus)
     timing = Timing(natural if duration is None else duration, step, coupling)
     with elevator as ready:
-        recorder = None if fmu else FrameRecorder(partial(_rope, ready), timing.step)
+        recorder = None if fmus else FrameRecorder(partial(_rope, ready), timing.step)
         simulated = simulate_trip(ready, names, timing, partial(_advance, progress, recorder))
     recording = recorder.recording if recorder else None
     return SimulationResult(
@@ -117,7 +121,7 @@ def _model(model: ModelInput, changes: Changes | None) -> tuple[RopeModel, dict[
 
 
 def _driven(
-    model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]], fmu: bool
+    model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]], fmus: NamedFmus | None
 ) -> tuple[AbstractContextManager[Elevator], float]:
     """The elevator with its drive for the requested trip in the shaft of the model, and the simulated time [s]."""
     height = rope_model.shaft.height
@@ -133,4 +137,4 @@ def _driven(
     }
     merged = {table: asked.get(table, {}) | changes.get(table, {}) for table in {*asked, *changes}}
     drive = read_drive(motion.drive, model, merged)
-    return driven_elevator(rope_model, drive, not fmu), first_trajectory(drive).end_time + SETTLE
+    return driven_elevator(rope_model, drive, fmus is None, fmus or OWN_FMUS), first_trajectory(drive).end_time + SETTLE

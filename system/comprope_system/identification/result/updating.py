@@ -65,9 +65,9 @@ class _ModelResult(Result):
 
     def save_fmus(self, folder: str | Path) -> None:
         """Write CompensationRope.fmu, whose parameters start at the values of the new model, and ElevatorDrive.fmu."""
-        from ...cosim.fmu_cache import build_fmus
+        from ...fmu_export.workflow import fmu
 
-        build_fmus(self.model, Path(folder))
+        fmu(self.model).save(folder)
 
 
 @dataclass(frozen=True, repr=False)
