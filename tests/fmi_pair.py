@@ -24,12 +24,14 @@ from comprope.errors import CompropeError, InputError
 from comprope.fmi.instance import Instance
 from comprope.fmi.model_interface import ModelInterface
 
+ERROR = 3  # status of FMI
+
 
 class Oracle:
-    """What an FMU should do: an `Instance` that stays out of action after an error and, if `strict`, knows the order of calls."""
+    """What an FMU should do: an `Instance` that stays out of action after an error and knows the order of calls."""
 
-    def __init__(self, interface: ModelInterface, strict: bool) -> None:
-        self.interface, self.strict = interface, strict
+    def __init__(self, interface: ModelInterface) -> None:
+        self.interface = interface
         self.reset()
 
     def reset(self) -> None:
@@ -44,7 +46,7 @@ class Oracle:
             raise
 
     def require(self, *phases: int) -> None:
-        if self.strict and self.phase not in phases:
+        if self.phase not in phases:
             raise InputError("not now")
 
     def enter_phase(self, phase: int, needed: int) -> None:
@@ -53,15 +55,11 @@ class Oracle:
 
 
 class Pair:
-    """One instance of an FMU and its oracle. Each method makes a call; a disagreement is an `AssertionError`.
+    """One instance of an FMU and its oracle. Each method makes a call; a disagreement is an `AssertionError`."""
 
-    `status` is what the FMU returns for an error; `strict` says whether it minds the order of calls.
-    """
-
-    def __init__(self, fmu: Path, interface: ModelInterface, status: int = 3, strict: bool = True) -> None:
-        self.status = status
+    def __init__(self, fmu: Path, interface: ModelInterface) -> None:
         self.folder, self.description = extract(str(fmu)), read_model_description(str(fmu))
-        self.oracle, self.messages, self.states = Oracle(interface, strict), list[str](), list[tuple[Any, bytes, int]]()
+        self.oracle, self.messages, self.states = Oracle(interface), list[str](), list[tuple[Any, bytes, int]]()
         self.references = {one.name: place for place, one in enumerate(interface.variables)}
         self.calls = self.refusals = 0
         self._instantiate()
@@ -98,8 +96,8 @@ class Pair:
         try:
             call()
         except FMICallException as error:
-            assert error.status == self.status, error
-            assert self.messages and self.messages[0].startswith(f"{self.status} "), self.messages
+            assert error.status == ERROR, error
+            assert self.messages and self.messages[0].startswith(f"{ERROR} "), self.messages
         else:
             raise AssertionError(f"accepted, though: {why}")
 
@@ -113,9 +111,7 @@ class Pair:
     # -- calls -----------------------------------------------------------------------------------
 
     def instantiate_again(self) -> None:
-        """Free the instance, if it can with whatever states it has, and make another."""
-        while self.states and not self.oracle.strict:
-            self.free_state(0)
+        """Free the instance with whatever states it has, and make another."""
         self.instance.freeInstance()
         self.states.clear()
         self.oracle.reset()

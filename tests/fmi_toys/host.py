@@ -8,9 +8,11 @@ Usage: host.py SCENARIO FMU...; prints what happens, one line each, and at last 
 import math
 import sys
 from collections.abc import Callable
+from ctypes import CDLL, CFUNCTYPE, Structure, byref, c_char_p, c_int, c_void_p, cast
 from typing import Any
+from urllib.parse import quote
 
-from fmpy import extract, read_model_description
+from fmpy import extract, platform, read_model_description, sharedLibraryExtension
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
@@ -128,8 +130,7 @@ def times(path: str) -> None:
 
 def foreign_state(path: str) -> None:
     host = Host(path).begin()
-    state = host.deserializeFMUState(b"not a state")
-    attempt(lambda: host.setFMUState(state))
+    attempt(lambda: host.deserializeFMUState(b"not a state"))
     host.freeInstance()
 
 
@@ -139,8 +140,8 @@ def many(path: str) -> None:
         host = Host(path).begin().steps(0, 2)
         host.terminate()
         host.freeInstance()
-        script = next(module for name, module in sys.modules.items() if name.startswith("Spring_"))
-        references.append(sys.getrefcount(script.__dict__))
+        package = next(module for name, module in sys.modules.items() if name.startswith("comprope_spring_"))
+        references.append(sys.getrefcount(package.__dict__))
     print("PATHS", sum("resources" in name for name in sys.path))
     print("REFERENCES", len(set(references)))
 
@@ -164,6 +165,44 @@ def load(path: str) -> None:
     host = Host(path).begin()
     host.setFMUState(host.deserializeFMUState(bytes.fromhex(sys.stdin.read())))
     print("VALUE", host.steps(17, 40).real("place[1]").hex(), host.real("spring.mass"), host.real("force"))
+
+
+class _Callbacks(Structure):
+    _fields_ = (("logger", c_void_p), ("memory", c_void_p * 3), ("environment", c_void_p))
+
+
+@CFUNCTYPE(None, c_void_p, c_char_p, c_int, c_char_p, c_char_p)
+def _log(_environment: Any, _name: bytes, _status: int, _category: bytes, message: bytes) -> None:
+    print("LOG", message.decode())
+
+
+def _instantiate(folder: str, uri: str | None = "", callbacks: bool = True, **changed: Any) -> bool:
+    description = read_model_description(folder)
+    name = description.coSimulation.modelIdentifier
+    library = CDLL(f"{folder}/binaries/{platform}/{name}{sharedLibraryExtension}")
+    library.fmi2Instantiate.restype = c_void_p
+    own = {"name": b"one", "kind": 1, "guid": description.guid.encode()} | changed
+    found = byref(_Callbacks(cast(_log, c_void_p).value, (c_void_p * 3)(), None)) if callbacks else None
+    resources = None if uri is None else (uri or f"file://{quote(folder)}/resources").encode()
+    made = library.fmi2Instantiate(own["name"], own["kind"], own["guid"], resources, found, 0, 0)
+    library.fmi2FreeInstance(c_void_p(made))
+    return bool(made)
+
+
+def instantiate(folder: str, uri: str, bare: str = "") -> None:
+    print("INSTANCE", _instantiate(folder, None if uri == "NONE" else uri, not bare))
+
+
+def refused(folder: str) -> None:
+    for changed in ({"name": None}, {"name": b""}, {"kind": 0}, {"guid": b"another"}):
+        print("INSTANCE", _instantiate(folder, **changed))
+
+
+def interrupted(path: str) -> None:
+    host = Host(path).begin()
+    host.put("force", 669.0)
+    attempt(lambda: host.doStep(0.0, 0.01))
+    host.freeInstance()
 
 
 def without_package(path: str) -> None:

@@ -1,11 +1,4 @@
-"""Error reporting of a slave: one sentence and the status "fatal", without ending the host process.
-
-pythonfmu has two ways to report an error. A step that returns False becomes fmi2Discard, which asks
-importers to try again: fmpy then repeats or skips the step without a message. An exception
-becomes fmi2Fatal, with the exception's `repr` in the importer's log; fmpy and libcosim stop there,
-and it is the only way for calls other than steps. Hence every error is raised. (fmi2Error would be
-correct, but pythonfmu's binary cannot return it.)
-"""
+"""Error reporting: every error becomes one sentence, for the importer's log or, where there is none, for standard error."""
 
 import sys
 import traceback
@@ -14,17 +7,12 @@ from pathlib import Path
 from ..errors import CompropeError
 
 
-class SlaveError(Exception):
-    """An error for the importer, which logs its `repr`."""
-
-    def __repr__(self) -> str:
-        return str(self)
-
-
 def sentence(error: BaseException) -> str:
     """The error in one line: the text of a `CompropeError`; type and location of any other."""
     if isinstance(error, CompropeError):
         return "; ".join(str(error).splitlines())
+    if isinstance(error, KeyboardInterrupt):
+        return "interrupted"
     frames = traceback.extract_tb(error.__traceback__)
     place = f" in {frames[-1].name}, {Path(frames[-1].filename).name}:{frames[-1].lineno}" if frames else ""
     detail = " ".join(str(error).split())
@@ -32,7 +20,7 @@ def sentence(error: BaseException) -> str:
 
 
 def report(text: str) -> None:
-    """Write the sentence to standard error, since with logging off pythonfmu passes nothing to the importer."""
+    """Write the sentence to standard error."""
     try:
         sys.stderr.write(text + "\n")
         sys.stderr.flush()

@@ -12,6 +12,7 @@ from .model_interface import Kind, ModelInterface, Role, Simulator, Value, Varia
 
 _MAGIC = b"comprope run 1\n"
 _LENGTHS = struct.Struct("<QQ")
+INSTANTIATED, INITIALIZING, STEPPING, TERMINATED = range(4)  # phases of an instance
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class InstanceState:
     start: float
     stop: float | None
     time: float
-    running: bool
+    phase: int
     failure: str | None
 
 
@@ -75,7 +76,12 @@ class Instance:
         self._first_inputs: dict[str, Value] = {}
         self._outputs: dict[str, Value] = {}
         self._simulator: Simulator | None = None
-        self._running = False
+        self.phase = INSTANTIATED
+
+    @property
+    def _running(self) -> bool:
+        """Whether initialization has ended."""
+        return self.phase >= STEPPING
 
     @property
     def simulator(self) -> Simulator:
@@ -107,11 +113,11 @@ class Instance:
     def exit_initialization(self) -> None:
         """Fix the parameters and create the simulator; refuses invalid values, all problems in one sentence."""
         self._ensure_simulator()
-        self._running = True
+        self.phase = STEPPING
 
     def do_step(self, time: float, dt: float) -> None:
         """Advance from `time` by `dt` [s]; raises `SimulationError` if the model fails or an output is not finite."""
-        self._require_not_failed()
+        self.require_not_failed()
         if not self._running:
             raise InputError("a step is possible only after initialization has ended")
         if problem := validation.step_problem(time, dt, self.time, self._stop):
@@ -134,7 +140,7 @@ class Instance:
             start=self._start,
             stop=self._stop,
             time=self.time,
-            running=self._running,
+            phase=self.phase,
             failure=self.failure,
         )
         return pack(state, simulator)
@@ -142,12 +148,13 @@ class Instance:
     def restore_state(self, data: bytes, model: str) -> None:
         """Return to a saved state, bit for bit."""
         state, simulator_state = unpack(data, model)
-        simulator = self._simulator_in_state(state, simulator_state) if state.running else None
+        simulator = self._simulator_in_state(state, simulator_state) if state.phase >= STEPPING else None
         self._values, self._first_inputs, self._outputs = state.values, state.first_inputs, state.outputs
         self._start, self._stop, self.time = state.start, state.stop, state.time
-        self._simulator, self._running, self.failure = simulator, state.running, state.failure
+        self._simulator, self.phase, self.failure = simulator, state.phase, state.failure
 
-    def _require_not_failed(self) -> None:
+    def require_not_failed(self) -> None:
+        """Raise `InputError` after an error, unless reset or restored."""
         if self.failure:
             raise InputError(f"no steps and outputs after an error, unless reset or restored; the error was: {self.failure}")
 
@@ -160,7 +167,7 @@ class Instance:
     def _value(self, variable: Variable) -> Value:
         if variable.role != "output":
             return self._values[variable.name]
-        self._require_not_failed()
+        self.require_not_failed()
         self._ensure_simulator()
         return self._outputs[variable.name]
 

@@ -1,13 +1,11 @@
-"""Build an FMU that runs in Python: pythonfmu packs a slave and a copy of this code; the result is reproducible.
+"""Build an FMU that runs in Python: a binary, a copy of this code, and the model description; the result is reproducible.
 
-The copy of the code and the slave's script have the hash of their content in their names. A Python
-process identifies a module by its name alone, so two FMUs, or two builds of one, would otherwise run
-whichever code was loaded first.
+The copy of the code has the hash of its content in its name. A Python process identifies a module by its name alone, so two
+FMUs, or two builds of one, would otherwise run whichever code was loaded first.
 """
 
 import ast
 import hashlib
-import os
 import subprocess
 import sys
 import tempfile
@@ -25,49 +23,71 @@ from .documentation import documentation_page
 from .icon import icon
 from .model_description import complete_description
 from .model_interface import ModelInterface
+from .pythonfmu_slave import pythonfmu_description
 from .validation import interface_problems
 
 COMPROPE = Path(__file__).parent.parent
 # The modules of this package that run inside an FMU.
 FMI_MODULES = (
-    "__init__", "error_reporting", "instance", "model_interface", "pythonfmu_slave", "pythonfmu_workarounds", "units",
-    "validation",
+    "__init__", "component", "error_reporting", "functions", "instance", "model_interface", "units", "validation",
 )  # fmt: skip
 FIXED_TIME = (1980, 1, 1, 0, 0, 0)
 DESCRIPTION = "modelDescription.xml"
 
+# The binary by system, and where FMI has its place.
+BINARY = COMPROPE / "fmi" / "binary"
+BINARIES = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
+GUID_FILE = "resources/guid.txt"
+
 _BUNDLED_MODULE = '''\
-"""The model of this FMU, made from the files beside this one; written by build_fmu.py."""
+"""The model of this FMU, made from the files beside this one; written by comprope."""
 
 from pathlib import Path
-
-from .fmi.pythonfmu_slave import slave_class
 
 HERE = Path(__file__).parent
 
 {entry}
-Slave = slave_class(INTERFACE)
 '''
 
-_SLAVE_SCRIPT = '''\
-"""The slave that pythonfmu loads, again for each instance; the code is in {package}. Written by build_fmu.py."""
+_LOADER = '''\
+"""Loads the code of this FMU for its binary, which defines RESOURCES, TABLE, PROBLEM and PROBLEM_SIZE. Written by comprope."""
 
+import ctypes
+import importlib.util
+import os
 import sys
 
+NAME, PACKAGE = "{name}", "{package}"
+
+
+def functions():
+    """The functions of the FMI for this FMU; the package is loaded once, wherever the FMU is unpacked."""
+    if PACKAGE not in sys.modules:
+        folder = os.path.join(RESOURCES, PACKAGE)
+        spec = importlib.util.spec_from_file_location(
+            PACKAGE, os.path.join(folder, "__init__.py"), submodule_search_locations=[folder]
+        )
+        sys.modules[PACKAGE] = package = importlib.util.module_from_spec(spec)
+        try:
+            spec.loader.exec_module(package)
+            interface = importlib.import_module(PACKAGE + ".bundled").INTERFACE
+            make = importlib.import_module(PACKAGE + ".fmi.functions").Functions
+            with open(os.path.join(RESOURCES, "guid.txt"), encoding="ascii") as file:
+                package.FUNCTIONS = make(interface, NAME + " of " + PACKAGE, file.read())
+        except BaseException:
+            for module in [one for one in sys.modules if one == PACKAGE or one.startswith(PACKAGE + ".")]:
+                del sys.modules[module]
+            raise
+    return sys.modules[PACKAGE].FUNCTIONS
+
+
 try:
-    from {package}.bundled import Slave
-    from {package}.fmi.pythonfmu_workarounds import keep_alive
-except Exception as error:
-    sys.stderr and sys.stderr.write("{name} cannot be loaded: %s. It needs {needs}.\\n" % error)
-    raise
-
-if locals() is not globals():
-    # Run by pythonfmu's binary for one more instance.
-    keep_alive(globals())
-
-
-class {name}(Slave):
-    """See the FMU's documentation/index.html."""
+    pointers = functions().pointers
+    ctypes.memmove(TABLE, pointers, ctypes.sizeof(pointers))
+except BaseException as error:
+    text = "%s cannot be loaded: %s: %s. It needs {needs}." % (NAME, type(error).__name__, " ".join(str(error).split()))
+    data = text.encode("utf-8", "replace")[: PROBLEM_SIZE - 1] + bytes(1)
+    ctypes.memmove(PROBLEM, data, len(data))
 '''
 
 
@@ -99,7 +119,7 @@ class Bundle:
         nodes = [node for tree in trees for node in ast.walk(tree)]
         names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
         names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module and not node.level}
-        foreign = {name.partition(".")[0] for name in names} - sys.stdlib_module_names - {"pythonfmu", "comprope"}
+        foreign = {name.partition(".")[0] for name in names} - sys.stdlib_module_names - {"comprope"}
         owners = metadata.packages_distributions()
         return " ".join(sorted({owners.get(name, [name])[0].lower() for name in foreign}))
 
@@ -131,11 +151,13 @@ def build(
         raise InputError("; ".join(problems))
     files = _source_files(packages, root) | dict(data or {}) | {"bundled.py": _BUNDLED_MODULE.format(entry=entry).encode()}
     bundle = Bundle("_".join(["comprope", *packages]), files)
-    content = _pack_with_pythonfmu(interface.name, bundle, origin)
+    content = _resources(interface.name, bundle, origin)
+    _require_loading(content)
+    content |= _binary_files(interface.name)
     content |= _documentation_files(interface, origin, bundle.needs) | dict(extra or {})
-    xml = content.pop(DESCRIPTION)
+    xml = pythonfmu_description(interface)
     guid = str(uuid.UUID(digest(content | {DESCRIPTION: complete_description(xml, interface, origin.version, "")})[:32]))
-    content[DESCRIPTION] = complete_description(xml, interface, origin.version, guid)
+    content |= {DESCRIPTION: complete_description(xml, interface, origin.version, guid), GUID_FILE: guid.encode()}
     with atomic_write(out / f"{interface.name}.fmu") as path:
         path.write_bytes(reproducible_zip(content))
     return out / f"{interface.name}.fmu"
@@ -151,33 +173,47 @@ def _source_files(packages: Iterable[str], root: Path) -> dict[str, bytes]:
     return files
 
 
-def _pack_with_pythonfmu(name: str, bundle: Bundle, origin: Origin) -> dict[str, bytes]:
-    """The files of the FMU that pythonfmu packs, by path; it runs in its own process, to keep its imports separate."""
-    script = f"{name}_{bundle.digest}.py"
+def _resources(name: str, bundle: Bundle, origin: Origin) -> dict[str, bytes]:
+    """The code and what loads it, by path in the FMU."""
     needs = f"Python {origin.python} or newer and: pip install {bundle.needs}"
+    loader = _LOADER.format(name=name, package=bundle.package, needs=needs)
+    code = {f"resources/{bundle.package}/{path}": content for path, content in bundle.files.items()}
+    return code | {"resources/load.py": loader.encode()}
+
+
+# What the binary does with load.py.
+_LOADING = """\
+import ctypes, sys
+table, problem = (ctypes.c_void_p * 64)(), ctypes.create_string_buffer(2048)
+places = {"RESOURCES": ".", "TABLE": ctypes.addressof(table), "PROBLEM": ctypes.addressof(problem), "PROBLEM_SIZE": 2048}
+exec(compile(open("load.py", "rb").read(), "load.py", "exec"), places)
+sys.exit(None if table[0] else problem.value.decode())
+"""
+
+
+def _require_loading(resources: Mapping[str, bytes]) -> None:
+    """Raise `CompropeError` if the code of the FMU cannot be loaded; in its own process, to keep its imports separate."""
     with tempfile.TemporaryDirectory() as folder:
-        stage = Path(folder)
-        (stage / script).write_text(_SLAVE_SCRIPT.format(name=name, package=bundle.package, needs=needs), encoding="utf-8")
-        for path, content in bundle.files.items():
-            target = stage / bundle.package / path
+        for path, content in {**resources, GUID_FILE: b""}.items():
+            target = Path(folder) / Path(path).relative_to("resources")
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_bytes(content)
-        command = [sys.executable, "-m", "pythonfmu", "build", "-f", script, "-d", "packed", bundle.package]
-        environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}
-        result = subprocess.run(command, cwd=stage, env=environment, capture_output=True, text=True, check=False)
+        command = [sys.executable, "-P", "-B", "-c", _LOADING]
+        result = subprocess.run(command, cwd=folder, capture_output=True, text=True, encoding="utf-8", check=False)
         if result.returncode:
-            raise CompropeError(f"{name}: pythonfmu cannot pack it: {(result.stderr.strip().splitlines() or ['no message'])[-1]}")
-        with zipfile.ZipFile(stage / "packed" / f"{name}.fmu") as packed:
-            return {entry: packed.read(entry) for entry in packed.namelist() if "__pycache__" not in entry}
+            raise CompropeError((result.stderr.strip().splitlines() or ["the FMU's code cannot be loaded"])[-1])
+
+
+def _binary_files(name: str) -> dict[str, bytes]:
+    """The binary for each system, by path in the FMU."""
+    return {f"binaries/{system}/{name}.{end}": (BINARY / f"{system}.{end}").read_bytes() for system, end in BINARIES.items()}
 
 
 def _documentation_files(interface: ModelInterface, origin: Origin, needs: str) -> dict[str, bytes]:
-    pythonfmu = next(path for path in metadata.files("pythonfmu") or () if path.name == "LICENSE")
     return {
         "model.png": icon(),
         "documentation/index.html": documentation_page(interface, origin.version, origin.python, needs).encode(),
         "documentation/licenses/license.txt": origin.licence.encode(),
-        "documentation/licenses/pythonfmu.txt": pythonfmu.read_binary(),
     }
 
 

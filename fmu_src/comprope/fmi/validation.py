@@ -57,6 +57,8 @@ def step_problem(time: float, dt: float, reached: float, stop: float | None) -> 
             f"step from {time!r} s: the time reached is {reached!r} s, and only a step from there is accepted; "
             "to go back, restore a saved state"
         )
+    if time + dt == time:
+        return f"step size = {dt:g} s: too small to change the time of {time!r} s"
     if stop is not None and time + dt > stop + _tolerance(time, dt):
         return f"step to {time + dt!r} s: the stop time was set to {stop!r} s"
     return None

@@ -7,15 +7,14 @@ from collections.abc import Mapping
 from ..fmi.icon import icon
 from ..fmi.model_description import complete_description
 from ..fmi.model_interface import ModelInterface
-from ..fmi.pythonfmu_slave import slave_class
+from ..fmi.pythonfmu_slave import pythonfmu_description
 from .fmi_version import FmiVersion
 from .targets import TARGETS
 
 
 def model_description(interface: ModelInterface, version: str, guid: str) -> bytes:
     """The model description: that of the FMU in Python, except for the capabilities of the binary."""
-    slave = type(interface.name, (slave_class(interface),), {})(instance_name="one")
-    root = ET.fromstring(complete_description(ET.tostring(slave.to_xml()), interface, version, guid))
+    root = ET.fromstring(complete_description(pythonfmu_description(interface), interface, version, guid))
     root.set("generationTool", f"comprope {version}")
     cosimulation = root.find("CoSimulation")
     assert cosimulation is not None

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -47,20 +47,20 @@ def system_names(targets: Iterable[str]) -> str:
 
 def link_binaries(name: str, kernels: Mapping[str, bytes], generated: Mapping[str, str]) -> dict[str, bytes]:
     """Binaries of the FMU `name` by target, from the kernels' machine code by target and generated C files."""
-    return {place: _link(name, code, generated, TARGETS[place]) for place, code in kernels.items()}
+    files: dict[str, bytes] = {path: text.encode() for path, text in generated.items()} | c_sources()
+    return {place: link(name, files | {"kernels.o": code}, TARGETS[place], ["-lm"]) for place, code in kernels.items()}
 
 
-def _link(name: str, kernels: bytes, generated: Mapping[str, str], target: Target) -> bytes:
+def link(name: str, files: Mapping[str, bytes], target: Target, libraries: Sequence[str]) -> bytes:
+    """The binary `name` for a target, from C sources and object files."""
     with tempfile.TemporaryDirectory() as folder:
         stage = Path(folder)
-        files: dict[str, bytes] = {path: text.encode() for path, text in generated.items()} | c_sources()
         for path, content in files.items():
             (stage / path).write_bytes(content)
-        (stage / "kernels.o").write_bytes(kernels)
         output = f"{name}.{target.extension}"
-        sources = sorted(path for path in files if path.endswith(".c"))
+        sources = sorted(path for path in files if path.endswith((".c", ".o")))
         options = [*_OPTIONS, *_extras(target, output), "-I.", f"-I{HEADERS}"]
-        command = [*_compiler(target), *options, *sources, "kernels.o", "-o", output, "-lm"]
+        command = [*_compiler(target), *options, *sources, "-o", output, *libraries]
         result = subprocess.run(command, cwd=stage, capture_output=True, text=True, check=False)
         if result.returncode:
             raise InputError(f"{output} cannot be linked for {target.folder}: {_last_error(result.stderr)}")

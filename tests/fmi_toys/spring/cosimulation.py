@@ -30,6 +30,8 @@ class Spring:
         self.place += dt * self.speed * (-1.0 if inputs["mirror"] else 1.0)
         if inputs["force"] == 668.0:
             self.place = float("nan")
+        if inputs["force"] == 669.0:
+            raise KeyboardInterrupt
 
     def outputs(self) -> Mapping[str, Any]:
         return {"place[1]": self.place, "moving": abs(self.speed) > 1e-3, "turns": self.count // 3, "word": WORD}
