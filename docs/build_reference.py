@@ -188,7 +188,7 @@ def _default(one: Quantity) -> str:
 
 def _fields(title: str, component: type[BaseModel], level: int) -> str:
     rows = [
-        (f"`{name}`", "required" if field.is_required() else "", field.description or "")
+        (f"`{field.alias or name}`", "required" if field.is_required() else "", field.description or "")
         for name, field in component.model_fields.items()
     ]
     return f"{'#' * level} {title}\n\n{_summary(component)}{_table(('key', '', ''), rows)}"

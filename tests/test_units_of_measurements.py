@@ -1,11 +1,13 @@
 """Units of measured channels, each against its definition."""
 
 import math
+from dataclasses import replace
 
-import pandas as pd
+import numpy as np
 import pytest
 
 from comprope_system.identification.data.campaign import Channel
+from comprope_system.measurements.motion_column import MotionSignal
 from comprope_system.measurements.run_table import UNITS, read_trips
 
 # What one unit is in SI units: a turn is 2 pi rad, a degree the 360th part of it, a minute 60 s.
@@ -30,11 +32,11 @@ def test_every_quantity_has_units_of_its_own_kind() -> None:
         assert {kinds[unit] for unit in units} == {expected[quantity.rsplit("_", 1)[-1]]}, quantity
 
 
-def test_the_counterweight_mirrors_the_car_in_the_shaft_or_follows_its_own_column(tmp_path) -> None:
+def test_the_counterweight_mirrors_the_car_in_the_shaft_or_follows_its_own_column() -> None:
     time = [0.02 * k for k in range(100)]
-    table = pd.DataFrame({"time": time, "car_position": [3.0] * 100})
-    car, counterweight = read_trips(tmp_path / "run.csv", table, 14.0)
+    signal = MotionSignal(np.array(time), np.full(100, 3.0), "position", "car_position")
+    car, counterweight = read_trips(signal, None, 14.0, "run.csv")
     assert (float(car.position(1.0)), float(counterweight.position(1.0))) == pytest.approx((3.0, 11.0), abs=1e-9)
     assert not counterweight.velocity(1.0)
-    _, own = read_trips(tmp_path / "run.csv", table.assign(counterweight_position=10.5), 14.0)
+    _, own = read_trips(signal, replace(signal, value=np.full(100, 10.5)), 14.0, "run.csv")
     assert float(own.position(1.0)) == pytest.approx(10.5, abs=1e-9)

@@ -6,6 +6,7 @@ from difflib import get_close_matches
 from typing import Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 
 from .quantities import quantities
 
@@ -27,7 +28,7 @@ def dotted_key(location: Location) -> str:
 
 def accepted(owner: type[BaseModel], name: str) -> str:
     """What the field `name` of a component accepts: range and unit, choices or form, and its line of help."""
-    field = owner.model_fields[name]
+    field = _fields(owner)[name]
     number = next((item for item in quantities(owner) if item.name == name), None)
     if number:
         unit = "" if number.unit == "1" else f" {number.unit}"
@@ -38,8 +39,13 @@ def accepted(owner: type[BaseModel], name: str) -> str:
     nested = _component_in(field.annotation)
     if nested is not None:
         wanted = "a list of tables" if get_origin(field.annotation) is tuple else "a table"
-        return f"{wanted} with the keys {', '.join(nested.model_fields)} is accepted"
+        return f"{wanted} with the keys {', '.join(_fields(nested))} is accepted"
     return f"accepted is: {field.description}"
+
+
+def _fields(component: type[BaseModel]) -> dict[str, FieldInfo]:
+    """The fields of a component by the names they have in a file."""
+    return {field.alias or name: field for name, field in component.model_fields.items()}
 
 
 def suggestion(unknown: str, known: Sequence[str]) -> str:
@@ -56,7 +62,7 @@ def _sentence(component: type[BaseModel], item: dict[str, Any]) -> str:
     owner = _component_at(component, location[:-1])
     last = location[-1] if location else None
     if kind == "extra_forbidden":
-        known = list(owner.model_fields) if owner else []
+        known = list(_fields(owner)) if owner else []
         return f"{key}{_value_text(item['input'])}: unknown key; {suggestion(str(last), known)}"
     wanted = accepted(owner, last) if owner and isinstance(last, str) else _item_accepted(component, item)
     return f"{key}: missing; {wanted}" if kind == "missing" else f"{key}{_value_text(item['input'])}: {wanted}"
@@ -64,7 +70,7 @@ def _sentence(component: type[BaseModel], item: dict[str, Any]) -> str:
 
 def _item_accepted(component: type[BaseModel], item: dict[str, Any]) -> str:
     nested = _component_at(component, item["loc"])
-    return f"a table with the keys {', '.join(nested.model_fields)} is accepted" if nested else str(item["msg"])
+    return f"a table with the keys {', '.join(_fields(nested))} is accepted" if nested else str(item["msg"])
 
 
 def _value_text(value: Any) -> str:
@@ -79,7 +85,7 @@ def _component_at(component: type[BaseModel], location: Location) -> type[BaseMo
     current: type[BaseModel] | None = component
     for part in location:
         if isinstance(part, str):
-            field = current.model_fields.get(part) if current else None
+            field = _fields(current).get(part) if current else None
             current = _component_in(field.annotation) if field else None
     return current
 

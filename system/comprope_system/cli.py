@@ -22,10 +22,11 @@ app = typer.Typer(add_completion=False, rich_markup_mode="markdown", pretty_exce
 
 
 ALLOW_CODE = Annotated[bool, typer.Option("--allow-code", help="Allow a model file to run Python files of own effects.")]
+OUTSIDE = Annotated[bool, typer.Option("--allow-outside", help="Allow a campaign to name run files outside of its folder.")]
 
 
 @app.callback(invoke_without_command=True)
-def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False) -> None:
+def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False, allow_outside: OUTSIDE = False) -> None:
     """Lateral vibration of elevator compensation ropes: simulation, comparison with measurements, diagnosis of missing effects.
 
     First example: `comprope simulate tower50 --plot trip.png`. For MODEL.toml every command also accepts the name of a
@@ -35,6 +36,7 @@ def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False) -> None:
     cache folder (`~/.cache/comprope`); to empty the cache, delete it.
     """
     context.with_resource(consent.giving(allow_code))
+    context.with_resource(consent.giving(allow_outside, consent.OUTSIDE))
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
 

@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from ..atomic_files import atomic_write, read_text_file
 from ..errors import InputError
 from ..validation_messages import validation_problems
-from .effects import RopeModel, model_type, user_effects
+from .effects import INSTRUMENT, RopeModel, model_type, user_effects
 
 _NO_KEY = "not the key of a single value in this model, such as sheave.mass or sensors[1].height"
 
@@ -144,6 +144,9 @@ def _frozen(value: Any) -> Any:
 
 def _path(key: str) -> list[str | int]:
     """`sensors[1].height` as `["sensors", 0, "height"]`."""
+    parts = key.split(".", 2)
+    if len(parts) == 3 and parts[0] == "effects" and parts[1] in INSTRUMENT:
+        return list(parts)  # a channel's name is whatever a logger wrote
     if not re.fullmatch(r"\w+(\[[1-9]\d*\])?(\.\w+(\[[1-9]\d*\])?)*", key):
         raise LookupError(key)
     return [int(part[1:]) - 1 if part.startswith("[") else part for part in re.findall(r"\[\d+|\w+", key)]

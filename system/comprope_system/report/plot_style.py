@@ -25,10 +25,16 @@ def panels(columns: int = 1, rows: int = 1, height: float = 3.6) -> tuple[Figure
 
 def label(axes: Axes, x: str, y: str, title: str = "") -> None:
     """Name both axes, and the panel."""
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
+    axes.set_xlabel(plain(x))
+    axes.set_ylabel(plain(y))
     if title:
-        axes.set_title(title, loc="left", fontsize=10.5)
+        axes.set_title(plain(title), loc="left", fontsize=10.5)
+
+
+def plain(text: str) -> str:
+    """A text of the user's files for a figure, in which a dollar sign begins no formula and no control character stands."""
+    shown = "".join(character if character.isprintable() else " " for character in text)
+    return shown.replace("$", r"\$").removeprefix("_") or " "
 
 
 def legend(axes: Axes, **options: Any) -> None:

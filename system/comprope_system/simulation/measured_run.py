@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.rope.model_file import read_toml
-
 from ..measurements import Trip
-from ..measurements.run_table import UNITS, read_table, read_trips
+from ..measurements.campaign_file import CampaignFile, RunSpec, read_campaign_file
+from ..measurements.campaign_file import Channel as MeasuredChannel
+from ..measurements.run_table import present_channels, read_run_table, read_trips
 
 Floats = NDArray[np.float64]
-LENGTHS = UNITS["lateral_displacement"]
 
 
 @dataclass(frozen=True)
@@ -41,31 +40,21 @@ class Run:
 
 
 def read_run(path: Path, height: float, sensors: Sequence[str]) -> Run:
-    """The run of a CSV file, in a shaft of this height [m]; raises `InputError` for missing columns."""
-    table = read_table(path, ("time", "car_position"))
+    """The run of a file, in a shaft of this height [m]; raises `InputError` for a file without the car's motion."""
     described = path.parent / "campaign.toml"
-    campaign = read_toml(described) if described.is_file() else {}
-    car, counterweight = read_trips(path, table, height)
-    wanted = _described(campaign) if campaign else {name: (name, 1.0, False) for name in sensors}
-    time = table["time"].to_numpy(float)
+    campaign = read_campaign_file(described) if described.is_file() else _undescribed(path.name, sensors)
+    spec = next((one for one in campaign.runs if one.file == path.name), RunSpec(file=path.name))
+    wanted = [one for one in campaign.channels if one.quantity == "lateral_displacement" and one.sensor in sensors]
+    campaign = campaign.model_copy(update={"channels": present_channels(path.parent, spec, campaign.file, wanted)})
+    table = read_run_table(path.parent, spec, campaign, height, None)
+    car, counterweight = read_trips(table.car, table.counterweight, height, str(path))
     channels = {
-        sensor: Channel(time, table[column].to_numpy(float) * scale, from_rest)
-        for sensor, (column, scale, from_rest) in wanted.items()
-        if column in table and sensor in sensors
+        str(one.sensor): Channel(table.time, table.values[one.column], one.reference == "rest") for one in campaign.channels
     }
-    return Run({"car": car, "counterweight": counterweight}, channels, _changes(campaign, path.name), float(time[-1]))
+    return Run({"car": car, "counterweight": counterweight}, channels, dict(spec.set), float(table.time[-1]))
 
 
-def _described(campaign: dict[str, Any]) -> dict[str, tuple[str, float, bool]]:
-    """Column, metres per unit, and whether it is relative to rest, by sensor, from the channels of a campaign."""
-    found = {}
-    for channel in campaign.get("channels", []):
-        if isinstance(channel, dict) and channel.get("quantity") == "lateral_displacement" and channel.get("unit") in LENGTHS:
-            column = str(channel.get("column"))
-            found[str(channel.get("sensor"))] = column, LENGTHS[channel["unit"]], channel.get("reference") == "rest"
-    return found
-
-
-def _changes(campaign: dict[str, Any], file: str) -> dict[str, Any]:
-    runs = [run for run in campaign.get("runs", []) if isinstance(run, dict) and run.get("file") == file]
-    return dict(runs[0].get("set", {})) if runs else {}
+def _undescribed(file: str, sensors: Sequence[str]) -> CampaignFile:
+    """What a run without campaign.toml is taken for: columns with the names of sensors are lateral displacements in metres."""
+    channels = tuple(MeasuredChannel(column=name, sensor=name, quantity="lateral_displacement", unit="m") for name in sensors)
+    return CampaignFile(name=file, model="", channels=channels, runs=(RunSpec(file=file),))

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from comprope.atomic_files import atomic_write
 
+from ..report.plot_style import plain
 from .measured_run import Channel, Run
 from .trip_simulation import Simulated
 
@@ -75,14 +76,15 @@ def alongside(channel: Channel, measured: Run, simulated: Simulated, name: str) 
     shift = 0.0
     if channel.from_rest:
         still = channel.time <= measured.trips["car"].rest_before
-        shift = float(simulated.table[name].iloc[0]) - float(np.nanmean(channel.value[still]))
+        seen = channel.value[still & np.isfinite(channel.value)]
+        shift = float(simulated.table[name].iloc[0]) - float(np.mean(seen)) if len(seen) else 0.0
     shown = channel.time <= simulated.table["time"].iloc[-1]
     return channel.time[shown], 1e3 * (channel.value[shown] + shift)
 
 
 def _curve(axes: Axes, time: ArrayLike, value: ArrayLike, label: str) -> None:
     axes.plot(time, value, color=SIMULATED, linewidth=1.2, label="simulated")
-    axes.set_ylabel(label)
+    axes.set_ylabel(plain(label))
 
 
 def _dress(axes: Axes, end: float) -> None:

@@ -21,7 +21,7 @@ from ..prediction.parameter_point import ParameterPoint, Predictions, collect_pr
 from ..prediction.replay import relative_to_rest
 from ..settings import COMPARISON
 from .error_metrics import ORDERS, SpragueGeers, by_band, by_bins, by_order, rms, sprague_geers
-from .nrmse import nrmse, overall, trusted
+from .nrmse import moves, nrmse, overall, trusted
 
 Floats = NDArray[np.float64]
 
@@ -110,7 +110,7 @@ class Comparison:
     def noise_nrmse(self, role: str) -> float:
         """The NRMSE that the noise of the channels alone would give in the runs of a role."""
         channels = [one for run in self.runs if run.role == role for one in run.channels]
-        return overall(one.noise / max(float(np.std(one.measured)), 1e-12) for one in channels if len(one.time))
+        return overall(one.noise / float(np.std(one.measured)) for one in channels if moves(one.measured))
 
     def to_json(self) -> dict[str, Any]:
         """As in the contract, with more; what does not exist is null."""
@@ -170,7 +170,7 @@ def _channel(run: Run, channel: Channel, measured: Floats, predicted: Floats, an
     t, m, p = run.time[both], measured[both], predicted[both]
     if both.sum() < COMPARISON.min_samples:
         return _nothing(channel, t, m, p, noise)
-    residual, variation = m - p, max(float(np.std(m)), 1e-12)
+    residual, variation = m - p, float(np.std(m)) if moves(m) else float("nan")
     moving = np.abs(run.trip.velocity(t)) > 0.0
     return ChannelComparison(
         column=channel.column, channel=channel, time=t, measured=m, predicted=p,

@@ -115,10 +115,14 @@ def gaps(group: Sequence[Record]) -> Iterator[str]:
     """Samples missing while the rope is in view of the sensor, or present after its end has passed the sensor."""
     missing, extra = {}, {}
     for one in group:
-        holes, seen = np.isnan(one.measured), np.isfinite(one.predicted)
+        if not np.isfinite(one.measured).any():
+            continue  # left out of the run, which its notes say
+        sampled = one.run.sampled.get(one.channel.column, np.ones(len(one.measured), bool))
+        holes, seen = np.isnan(one.measured) & sampled, np.isfinite(one.predicted) & sampled
+        gone = ~seen & sampled
         if (share := float(np.mean(holes[seen]))) > 0.002 if seen.any() else False:
             missing[one.run.file] = share
-        if (share := float(np.mean(~holes[~seen]))) > 0.5 if (~seen).sum() >= PAIRED_RECORDS.min_samples else False:
+        if (share := float(np.mean(~holes[gone]))) > 0.5 if gone.sum() >= PAIRED_RECORDS.min_samples else False:
             extra[one.run.file] = share
     name = group[0].channel.column
     if missing:
@@ -130,7 +134,8 @@ def gaps(group: Sequence[Record]) -> Iterator[str]:
 
 def unseen_rest(group: Sequence[Record]) -> Iterator[str]:
     """A channel with reference "rest" that has no samples at rest."""
-    runs = [one.run.file for one in group if not np.isfinite(one.measured[one.run.rest]).any()]
+    used = [one for one in group if np.isfinite(one.measured).any()]
+    runs = [one.run.file for one in used if not np.isfinite(one.measured[one.run.rest]).any()]
     if group[0].channel.reference == "rest" and runs:
         missing = f'{group[0].channel.column}: reference = "rest", but no samples before the trip in {", ".join(runs)}'
         yield f"{missing}; these values are used as absolute ones"

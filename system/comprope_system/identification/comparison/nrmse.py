@@ -11,6 +11,7 @@ from ..prediction.parameter_point import Predictions
 from ..prediction.replay import relative_to_rest
 
 Floats = NDArray[np.float64]
+ROUNDING = 1e-12  # share of a value by which rounding in the conversion of units may move it
 
 
 def trusted(measured: Floats, predicted: Floats, noise: float) -> NDArray[np.bool_]:
@@ -21,12 +22,20 @@ def trusted(measured: Floats, predicted: Floats, noise: float) -> NDArray[np.boo
 
 
 def channel_error(measured: Floats, predicted: Floats, noise: float) -> float:
-    """Root-mean-square error over the root-mean-square variation of the measured values, of samples that are `trusted`."""
+    """Root-mean-square error over the root-mean-square variation of the measured values, of samples that are `trusted`.
+
+    NaN for a channel that never moves.
+    """
     both = trusted(measured, predicted, noise)
     if both.sum() < 2:
         return float("nan")
-    variation = float(np.std(measured[both]))
-    return float(np.sqrt(np.mean((measured[both] - predicted[both]) ** 2))) / max(variation, 1e-12)
+    error = float(np.sqrt(np.mean((measured[both] - predicted[both]) ** 2)))
+    return error / float(np.std(measured[both])) if moves(measured[both]) else float("nan")
+
+
+def moves(measured: Floats) -> bool:
+    """Whether a channel (n,) varies at all, beyond rounding; the error of one that does not is not defined."""
+    return bool(len(measured)) and float(np.ptp(measured)) > ROUNDING * float(np.max(np.abs(measured)))
 
 
 def overall(errors: Iterable[float]) -> float:

@@ -51,14 +51,14 @@ class WhitenedChannel:
 
 
 def whiten_channel(run: Run, channel: Channel, value: Floats, visible: NDArray[np.bool_]) -> WhitenedChannel | None:
-    """Bins and weights of a channel in a run; None with fewer than `WHITENING.min_samples` usable samples.
+    """Bins and weights of a channel in a run; None with fewer than `WHITENING.min_samples` usable samples, or with equal ones.
 
     `value` (samples,) [SI] is relative to rest where the channel is; samples that are not `visible` (samples,) are left out.
     """
     noise = sample_noise(run, channel, value)
     good = np.isfinite(value) & visible
     good[good] = ~outliers(value[good], noise)
-    if good.sum() < WHITENING.min_samples:
+    if good.sum() < WHITENING.min_samples or np.ptp(value[good]) == 0.0:
         return None
     width = max(WHITENING.bin_width, (run.time[-1] - run.time[0]) / WHITENING.max_bins)
     index = ((run.time - run.time[0]) / width).astype(np.int64)
@@ -79,6 +79,8 @@ def whiten_channel(run: Run, channel: Channel, value: Floats, visible: NDArray[n
 def sample_noise(run: Run, channel: Channel, value: Floats) -> float:
     """Standard deviation [SI] of the noise of one sample: as stated, unless the rest before the trip contradicts that."""
     stated, rest = (channel.noise or 0.0) * channel.scale, value[run.rest & np.isfinite(value)]
+    if not np.isfinite(value).any():
+        return stated or NOISE.floor
     if stated and len(rest) < NOISE.min_rest_samples:
         return stated
     if stated:
@@ -108,6 +110,8 @@ def is_contradicted(stated: float, estimated: float, count: int) -> bool:
 
 def outliers(value: Floats, noise: float, window: int = WHITENING.outlier_window) -> NDArray[np.bool_]:
     """Samples (n,) far from the median of a `window` of neighbours, in units of their scatter or the noise (Hampel filter)."""
+    if not len(value):
+        return np.zeros(0, bool)
     half = window // 2
     padded = np.pad(value, half, mode="edge")
     neighbours = np.lib.stride_tricks.sliding_window_view(padded, window)

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ...report.plot_style import COLOURS, FIRST, GREY, SECOND, THIRD, label, legend, panels
+from ...report.plot_style import COLOURS, FIRST, GREY, SECOND, THIRD, label, legend, panels, plain
 from ..comparison.compare import ChannelComparison, Comparison, RunComparison
 from ..comparison.error_metrics import ORDERS
 from ..data.campaign import Campaign
@@ -65,7 +65,7 @@ def by_position_and_frequency(comparison: Comparison) -> Figure:
     for k, column in enumerate(comparison.campaign.channels):
         own = [one for run in comparison.runs for one in run.channels if one.column == column]
         left.stairs(
-            100.0 * _mean([one.by_place for one in own]), edges, color=COLOURS[k % len(COLOURS)], linewidth=1.4, label=column
+            100.0 * _mean([one.by_place for one in own]), edges, color=COLOURS[k % len(COLOURS)], linewidth=1.4, label=plain(column)
         )
         right.plot(bands, 100.0 * _mean([one.by_band for one in own]), "o-", color=COLOURS[k % len(COLOURS)], markersize=4)
     label(left, "car position [m]", "NRMSE [%]")
@@ -90,7 +90,7 @@ def orders(comparison: Comparison) -> Figure:
     for axis, column in zip(axes, columns, strict=False):
         for k, run in enumerate(comparison.runs):
             one = next(c for c in run.channels if c.column == column)
-            axis.plot(ORDERS, one.orders / one.channel.scale, color=COLOURS[k % len(COLOURS)], linewidth=1.1, label=run.file)
+            axis.plot(ORDERS, one.orders / one.channel.scale, color=COLOURS[k % len(COLOURS)], linewidth=1.1, label=plain(run.file))
         for whole in range(1, 7):
             axis.axvline(whole, color=GREY, linewidth=0.6, linestyle=":")
         label(axis, "periods per revolution of the sheave", f"{column} [{comparison.campaign.channels[column].unit}]")
@@ -105,7 +105,7 @@ def ranking(entries: Sequence[Mapping[str, float]], names: Sequence[str], plant:
     figure, (left, right) = panels(2, height=0.34 * len(names) + 1.1)
     places = np.arange(len(names))[::-1]
     left.barh(places, [one["probability"] for one in entries], color=FIRST, height=0.6)
-    left.set_yticks(places, names)
+    left.set_yticks(places, list(map(plain, names)))
     left.set_xlim(0.0, 1.0)
     for axes in (left, right):
         axes.set_ylim(-0.6, len(names) - 0.4)
@@ -129,7 +129,8 @@ def correlation_bars(correlations: Sequence[ResidualCorrelation], axis: str) -> 
     places = np.arange(len(correlations))[::-1]
     axes.barh(places, [100.0 * one.share for one in correlations], color=FIRST, height=0.6)
     axes.set_yticks(
-        places, [one.coordinate + (f" ({one.peak:.3g} {one.unit})" if one.peak is not None else "") for one in correlations]
+        places,
+        [plain(one.coordinate) + (f" ({one.peak:.3g} {one.unit})" if one.peak is not None else "") for one in correlations],
     )
     axes.set_xlim(0.0, 100.0)
     label(axes, axis, "")
@@ -170,7 +171,7 @@ def error_bars(names: Sequence[str], fit: Sequence[float], validate: Sequence[fl
     for shift, values, colour, text in ((-0.2, fit, FIRST, "fit runs"), (0.2, validate, SECOND, "validation runs")):
         bars = axes.bar(at + shift, 100.0 * np.array(values), 0.38, color=colour, label=text)
         axes.bar_label(bars, fmt="%.3g", fontsize=8)
-    axes.set_xticks(at, names)
+    axes.set_xticks(at, list(map(plain, names)))
     label(axes, "", "NRMSE [%]")
     legend(axes)
     return figure

@@ -1,0 +1,1 @@
+"""Columns of a measured table: time in seconds, units, names, and faults of a signal."""

@@ -1,0 +1,180 @@
+"""Time in seconds from zero, from whatever a logger writes: seconds, milliseconds, sample numbers, dates, times of day, days."""
+
+import re
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from comprope.errors import InputError
+
+from ..files.file_format import FileFormat
+from ..files.numerals import to_numbers
+from ..files.raw_table import RawColumn, RawTable, printable
+from ..time_stamps import is_time_stamp, nanoseconds
+from ..units import TIMES, split_unit, unit_named
+
+Floats = NDArray[np.float64]
+
+SAMPLE_NAMES = re.compile(
+    r"(sample|samples|index|idx|no|nr|n|#|scan|count|counter|row|record|point|punkt|zeile)\.?( ?(no|nr|number|#)\.?)?",
+    re.IGNORECASE,
+)
+EPOCH = (1e9, 5e9)  # s since 1970 of the years 2001 to 2128; LabVIEW's seconds since 1904 lie there too
+DAY_NUMBERS = ((2e4, 8e4), (7e5, 8e5), (2.4e6, 2.5e6))  # days of Excel and OLE, of MATLAB and Python, Julian
+SHORTEST = 0.5  # a record of a trip is longer [s]; times that span less are days or hours
+EPOCH_DIGITS = 6  # of a second that a double holds of an epoch or a day number
+
+
+@dataclass(frozen=True)
+class TimeAxis:
+    """Times (n,) [s] from the first of them, NaN where a row has none.
+
+    `origin` [s] is the first time on the clock of the file, of the `kind` "relative" (the logger's own), "clock" (time of day) or
+    "date" (with day). `unit` is the unit of a numeric time, None for stamps; `sure` is False if that unit was assumed.
+    """
+
+    seconds: Floats
+    origin: float
+    kind: str
+    unit: str | None = None
+    sure: bool = True
+    remark: str | None = None
+
+    def in_unit(self, unit: str) -> "TimeAxis":
+        """The same numbers read in another unit."""
+        factor = TIMES[unit] / TIMES[self.unit or "s"]
+        return replace(self, seconds=self.seconds * factor, origin=self.origin * factor, unit=unit, sure=True)
+
+
+def time_axis(column: RawColumn, table: RawTable, stated: FileFormat) -> TimeAxis:
+    """The times of a column; raises `InputError`, without the file's name, where they are not times or do not increase."""
+    found = _stamps(column, table) if _is_stamped(column.values) else _numeric(column, table, stated)
+    _require_increasing(column, table, found)
+    return found
+
+
+def row_times(table: RawTable, count: int, rate: float) -> TimeAxis:
+    """Times of `count` samples at a constant rate [Hz], for a table without a column of times."""
+    return TimeAxis(
+        np.arange(count) / rate, 0.0, "relative", "s", remark=f"no column of times; {rate:g} samples per second are taken"
+    )
+
+
+def _is_stamped(values: pd.Series) -> bool:
+    if pd.api.types.is_datetime64_any_dtype(values) or pd.api.types.is_timedelta64_dtype(values):
+        return True
+    known = [one for one in values.head(200) if not pd.isna(one) and one != ""]
+    texts = [one for one in known if not isinstance(one, str) or is_time_stamp(one)]
+    return not pd.api.types.is_numeric_dtype(values) and len(known) > 0 and len(texts) > 0.5 * len(known)
+
+
+def _stamps(column: RawColumn, table: RawTable) -> TimeAxis:
+    values = column.values
+    if pd.api.types.is_datetime64_any_dtype(values) or pd.api.types.is_timedelta64_dtype(values):
+        whole = values.astype("datetime64[ns]" if pd.api.types.is_datetime64_any_dtype(values) else "timedelta64[ns]")
+        own, missing, dated = whole.astype("int64").to_numpy(), np.flatnonzero(values.isna()), True
+    else:
+        empty = values.map(lambda one: pd.isna(one) or one == "").to_numpy()
+        own, wrong, dated = nanoseconds(values)
+        missing = np.flatnonzero(empty)
+        if bad := [k for k in wrong if not empty[k]]:
+            raise InputError(
+                f"{column.name} = {printable(repr(values.iloc[bad[0]]))} in {table.row_text(bad[0])}: "
+                "a time is needed as in the other rows"
+            )
+    known = np.ones(len(own), bool)
+    known[missing] = False
+    first = int(own[np.argmax(known)])
+    seconds = np.where(known, (own - first) / 1e9, np.nan)
+    return TimeAxis(seconds, first / 1e9, "date" if dated else "clock")
+
+
+def _numeric(column: RawColumn, table: RawTable, stated: FileFormat) -> TimeAxis:
+    numbers = _numbers(column, table, stated)
+    known = numbers[np.isfinite(numbers.astype(float))]
+    if not len(known):
+        raise InputError(f"{column.name}: no times in this column")
+    if stated.time_unit is not None:
+        return _in_stated_unit(numbers, known, stated.time_unit, stated.rate or table.rate)
+    written = column.unit or split_unit(column.name)[1]
+    unit = unit_named(written) if written else None
+    base = split_unit(column.name)[0].strip()
+    counts = len(known) > 2 and bool(np.all(np.diff(known) == 1))
+    rated = unit is None and (stated.rate or table.rate or 1.0) != 1.0
+    if unit == "sample" or (counts and (SAMPLE_NAMES.fullmatch(base) or rated)):
+        return _in_stated_unit(numbers, known, "sample", stated.rate or table.rate)
+    if unit in TIMES:
+        return _scaled(numbers, known, unit)
+    if (by_size := _by_size(known)) is not None:
+        return _scaled(numbers, known, *by_size)
+    return replace(_scaled(numbers, known, "s"), sure=False)
+
+
+def _numbers(column: RawColumn, table: RawTable, stated: FileFormat) -> NDArray:
+    """Numbers (n,) of a column of times; whole ones stay whole: nanoseconds since 1970 need more digits than a double has."""
+    if column.is_numeric:
+        return column.values.to_numpy()
+    whole = pd.to_numeric(column.values, errors="coerce") if table.decimal == "." else None
+    if whole is not None and whole.dtype.kind in "iu":
+        return whole.to_numpy()
+    found, wrong, _ = to_numbers(column.values, table.decimal, stated.missing)
+    if wrong:
+        cell = printable(repr(column.values.iloc[wrong[0]]))
+        raise InputError(f"{column.name} = {cell} in {table.row_text(wrong[0])}: a number, a time or a date is accepted")
+    return found.to_numpy()
+
+
+def _in_stated_unit(numbers: NDArray, known: NDArray, unit: str, rate: float | None) -> TimeAxis:
+    if unit == "sample":
+        if rate is None:
+            raise InputError("time counts samples: write their rate [Hz] under [file], e.g. rate = 1000.0")
+        return TimeAxis(
+            (numbers - known[0]) / rate, float(known[0]) / rate, "relative", remark=f"time counts samples, {rate:g} per second"
+        )
+    named = unit_named(unit)
+    if named not in TIMES:
+        raise InputError(f'file.time_unit = "{printable(unit)}": {", ".join(TIMES)} or sample is accepted')
+    return _scaled(numbers, known, named)
+
+
+def _scaled(numbers: NDArray, known: NDArray, unit: str, kind: str = "relative", remark: str | None = None) -> TimeAxis:
+    shifted = (numbers - known[0]) if known[0] != 0 else numbers
+    seconds = np.asarray(shifted, float) * TIMES[unit] if unit != "s" else np.asarray(shifted, float)
+    if kind == "date" and numbers.dtype.kind == "f":
+        seconds = np.round(seconds, EPOCH_DIGITS)
+    return TimeAxis(seconds, float(known[0]) * TIMES[unit], kind, unit, remark=remark)
+
+
+def _by_size(known: NDArray) -> tuple[str, str, str] | None:
+    """Unit, kind and remark of times that are an epoch or day numbers, by their size; None for all others."""
+    first, span = float(known[0]), float(known[-1] - known[0])
+    for unit in ("s", "ms", "us", "ns"):
+        if EPOCH[0] < first * TIMES[unit] < EPOCH[1]:
+            return unit, "date", f"time read as {unit} since an epoch"
+    if any(low < first < high for low, high in DAY_NUMBERS) and span < SHORTEST:
+        return "d", "date", "time read as day numbers"
+    if 0.0 <= first < 1.0 and span < min(SHORTEST, 0.05) and len(known) > 20:
+        return "d", "clock", "time read as fractions of a day"
+    return None
+
+
+def _require_increasing(column: RawColumn, table: RawTable, axis: TimeAxis) -> None:
+    index = np.flatnonzero(np.isfinite(axis.seconds))
+    t = axis.seconds[index]
+    if len(t) < 2:
+        raise InputError(f"{column.name}: {len(t)} times; a time in every row is needed")
+    steps = np.diff(t)
+    if np.all(steps > 0.0):
+        return
+    same, back = int(np.sum(steps == 0.0)), int(np.sum(steps < 0.0))
+    where = table.row_text(int(index[1 + int(np.argmax(steps <= 0.0))]))
+    if back:
+        raise InputError(
+            f"{column.name} in {where} must be later than the row before ({back} rows are earlier): several records in one file?"
+        )
+    raise InputError(
+        f"{column.name} in {where} must be later than the row before ({same} rows have the same time): if samples are even, "
+        'write their rate [Hz] under [file] and leave out the time column with time = ""'
+    )

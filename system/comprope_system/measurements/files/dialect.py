@@ -1,0 +1,188 @@
+"""The dialect of a text table: separator, decimal sign, and the lines of header, units and numbers.
+
+Each pair of separator and decimal sign is tried; the one with which most cells of rows of equal length are numbers is taken.
+"""
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from comprope.errors import InputError
+
+from ..time_stamps import is_time_stamp
+from ..units import is_unit
+from .numerals import is_infinite, is_missing, is_number
+
+SEPARATORS = (",", ";", "\t", "|", " ")
+COMMENTS = ("#", "%", "//", "!", "*")
+TRIED_LINES = 400  # lines at the beginning from which separator and decimal sign are found
+LEAST_ROWS = 1  # of numbers that make a table
+LEAST_VALUES = 2  # numbers or times in a row of a table
+NUMERIC_SHARE = 0.5  # of a column's cells from which on it is a column of numbers
+Cells = list[str]
+
+
+@dataclass(frozen=True)
+class TableLines:
+    """Where a table stands: indices from 0 of the lines of names, units, and first and last numbers; `width` cells in each row.
+
+    `numeric` (width,) are the columns that hold numbers or times, in contrast to texts.
+    """
+
+    header: int | None
+    units: int | None
+    first: int
+    last: int
+    width: int
+    numeric: tuple[bool, ...]
+
+
+def split_line(line: str, separator: str) -> Cells:
+    """The cells of a line, without quotation marks and blanks around them."""
+    if separator == " ":
+        return line.split()
+    if '"' not in line:
+        return [cell.strip() for cell in line.split(separator)]
+    try:
+        return [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True), [])]
+    except csv.Error:
+        return [cell.strip() for cell in line.split(separator)]
+
+
+def find_separator(lines: Sequence[str], separator: str | None, decimal: str | None) -> tuple[str, str]:
+    """Separator and decimal sign of a text; what is stated is taken as it is. Raises `InputError`, without a file's name."""
+    quoted = any('"' in line for line in lines[:TRIED_LINES])
+    tried = [
+        (own, sign)
+        for own in ([separator] if separator else SEPARATORS)
+        for sign in ([decimal] if decimal else (".", ","))
+        if own != sign or quoted
+    ]
+    sampled = _sampled(lines)
+    scores = {one: _score([split_line(line, one[0]) for line in sampled if line.strip()], one[1]) for one in tried}
+    best = max(tried, key=lambda one: scores[one], default=None)
+    if best is None or scores[best] <= 0:
+        raise InputError("no table of numbers: rows of at least two cells, with a time and numbers, are accepted")
+    return best
+
+
+def _sampled(lines: Sequence[str]) -> list[str]:
+    """Lines from which the dialect is found: those of the beginning, and as many of the middle."""
+    middle = max(len(lines) // 2, TRIED_LINES)
+    return [*lines[:TRIED_LINES], *lines[middle : middle + TRIED_LINES]]
+
+
+def find_decimal(rows: Sequence[Cells]) -> str:
+    """The decimal sign with which more cells of a sheet are numbers."""
+    return max((".", ","), key=lambda sign: _score(rows[:TRIED_LINES], sign))
+
+
+def _score(rows: Sequence[Cells], decimal: str) -> int:
+    """Number of cells that are numbers or times in rows of the most frequent length."""
+    counts = [(len(row), sum(_is_value(cell, decimal) for cell in row)) for row in rows]
+    cells, numbers = Counter[int](), Counter[int]()
+    for width, number in counts:
+        if number >= LEAST_VALUES:
+            cells[width] += 1
+            numbers[width] += number
+    usual = max(numbers, key=lambda width: numbers[width], default=0)
+    return numbers[usual] if cells[usual] >= LEAST_ROWS else 0
+
+
+def _is_value(cell: str, decimal: str) -> bool:
+    return is_number(cell, decimal) or is_time_stamp(cell)
+
+
+def locate(rows: Sequence[Cells], decimal: str, header: int | None) -> TableLines:
+    """Where header, units and numbers stand; `header` is a stated line of names, from 1. Raises `InputError` without a table."""
+    width = _usual_width(rows, decimal)
+    candidates = [
+        k for k, row in enumerate(rows)
+        if len(trimmed(row, width)) == width and _values(row, decimal) >= LEAST_VALUES and k >= (header or 0)
+    ]  # fmt: skip
+    numeric = _numeric_columns([rows[k] for k in candidates], width, decimal)
+    good = [k for k in candidates if fits(rows[k], numeric, decimal)]
+    if len(good) < LEAST_ROWS:
+        raise InputError(f"no table of numbers: {len(good)} rows of {width} cells with numbers; at least {LEAST_ROWS} are needed")
+    # A footer has a word where rows have the time; a row with a bad cell elsewhere is a row.
+    first, key = good[0], numeric.index(True)
+    last = max(k for k, row in enumerate(rows) if k >= first and _is_row(row, key, width, decimal))
+    while first > (header or 0) and _is_row(rows[first - 1], key, width, decimal):
+        first -= 1
+    start = header if header is not None else 0
+    above = [k for k in range(start, first) if rows[k]]
+    units = next((k for k in reversed(above) if _is_units_row(trimmed(rows[k], width))), None)
+    if header is not None:
+        return TableLines(header - 1, units, first, last, width, numeric)
+    names = [k for k in above if k != units and _is_header(uncommented(rows[k]), width, decimal)]
+    return TableLines(names[-1] if names else None, units, first, last, width, numeric)
+
+
+def _is_row(row: Cells, key: int, width: int, decimal: str) -> bool:
+    return len(row) > key and len(trimmed(row, width)) == width and _is_value(row[key], decimal)
+
+
+def _values(row: Cells, decimal: str) -> int:
+    return sum(_is_value(cell, decimal) for cell in row)
+
+
+def _usual_width(rows: Sequence[Cells], decimal: str) -> int:
+    """Most frequent number of cells among rows with two numbers, without unnamed cells that are empty in all of them."""
+    numbers = [(k, row) for k, row in enumerate(rows) if _values(row, decimal) >= LEAST_VALUES]
+    if not numbers:
+        return 0
+    width = Counter(len(row) for _, row in numbers).most_common(1)[0][0]
+    own = [(k, row) for k, row in numbers if len(row) == width]
+    named = max((len(trimmed(row, 0)) for row in rows[: own[0][0]]), default=0)
+    while width > max(2, named) and all(not row[width - 1] for _, row in own):
+        width -= 1
+    return width
+
+
+def trimmed(row: Cells, width: int) -> Cells:
+    """The row without empty cells beyond `width`."""
+    end = len(row)
+    while end > width and not row[end - 1]:
+        end -= 1
+    return row[:end]
+
+
+def _numeric_columns(rows: Sequence[Cells], width: int, decimal: str) -> tuple[bool, ...]:
+    """Which columns hold numbers or times, by the share of cells that are not empty."""
+    found = []
+    for k in range(width):
+        cells = [row[k] for row in rows if k < len(row) and not is_missing(row[k])]
+        numbers = sum(_is_value(cell, decimal) or is_infinite(cell) for cell in cells)
+        found.append(bool(cells) and numbers >= NUMERIC_SHARE * len(cells))
+    return tuple(found)
+
+
+def fits(row: Cells, numeric: Sequence[bool], decimal: str) -> bool:
+    """Whether a row holds a number, a time or no value wherever its column holds numbers."""
+    own = [cell for cell, one in zip(row, numeric, strict=False) if one]
+    return all(_is_value(cell, decimal) or is_missing(cell) or is_infinite(cell) for cell in own)
+
+
+def _is_units_row(row: Cells) -> bool:
+    """Whether most cells of a row are units of measurement, in brackets or not, and the others empty."""
+    cells = [cell for cell in row if cell.strip("[]() -")]
+    return len(cells) >= 2 and sum(is_unit(cell) for cell in cells) > 0.6 * len(cells)
+
+
+def _is_header(row: Cells, width: int, decimal: str) -> bool:
+    """Whether a row may hold the names of the columns: as many cells as there are columns, most of them not numbers."""
+    own = trimmed(row, width)
+    if len(own) == width + 1 and own[-1].lower() == "comment":  # LabVIEW names a column that its rows leave out
+        own = own[:-1]
+    named = sum(bool(cell) and not is_number(cell, decimal) for cell in own)
+    return len(own) == width and named > 0.5 * width
+
+
+def uncommented(row: Cells) -> Cells:
+    """The cells of a line without a mark of comments before the first, whether or not it stands in a cell of its own."""
+    if not row or not row[0].startswith(COMMENTS):
+        return row
+    first = row[0].lstrip("".join(COMMENTS)).strip()
+    return [first, *row[1:]] if first else row[1:]

@@ -1,0 +1,89 @@
+"""A table from rows of text cells: which rows are the table, and its columns with names and units."""
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from comprope.errors import InputError
+
+from ..units import is_unit, unit_like
+from .dialect import COMMENTS, Cells, TableLines, fits, locate, trimmed, uncommented
+from .file_format import FileFormat
+from .raw_table import RawColumn, RawTable, unique_names
+
+_RATE = re.compile(
+    r"(?:sampl\w*[ _-]?(?:rate|freq\w*)|scan[ _-]?rate|data[ _-]?rate|abtast(?:rate|frequenz)|messrate|\bfs)\W*"
+    r"(\d+(?:[.,]\d+)?(?:e[+-]?\d+)?)\W*(k?hz|samples?/s|s/s|1/s)?",
+    re.IGNORECASE,
+)
+_INTERVAL = re.compile(
+    r"(?:delta[ _]?[xt]|\bdt|sampl\w*[ _-]?(?:interval|period|time)|abtast(?:intervall|zeit)|\binterval)\W*"
+    r"(\d+(?:[.,]\d+)?(?:e[+-]?\d+)?)\W*(ms|us|µs|s|sec)?\b",
+    re.IGNORECASE,
+)
+
+
+def table_of(rows: Sequence[Cells], decimal: str, stated: FileFormat) -> RawTable:
+    """The table in rows of cells, and what was skipped around and within it; raises `InputError`, without the file's name."""
+    found = locate(rows, decimal, stated.header)
+    kept, remarks = _kept(rows, found, decimal)
+    if found.header is None:
+        remarks.append("no line of column names above the numbers; columns are named column 1, column 2, ...")
+    names = uncommented(rows[found.header])[: found.width] if found.header is not None else []
+    names = unique_names([*names, *[""] * (found.width - len(names))])
+    units = _units(rows[found.units], found.width) if found.units is not None else [None] * found.width
+    padded = [[*rows[k][: found.width], *[""] * (found.width - len(rows[k]))] for k in kept]
+    cells = pd.DataFrame(padded, columns=names, dtype=str)
+    columns = tuple(RawColumn(name, cells[name], unit) for name, unit in zip(names, units, strict=True))
+    return RawTable(columns, _rate(rows[: found.first]), np.array(kept) + 1, decimal, tuple(remarks))
+
+
+def _kept(rows: Sequence[Cells], found: TableLines, decimal: str) -> tuple[list[int], list[str]]:
+    """Indices of the rows of the table, and remarks about lines that are left out."""
+    kept, remarks, skipped = [], [], 0
+    repeated = [rows[k] for k in (found.header, found.units) if k is not None]
+    for k in range(found.first, found.last + 1):
+        row = rows[k]
+        if not any(row) or row[0].startswith(COMMENTS) or row in repeated:
+            skipped += bool(row)
+        elif len(trimmed(row, found.width)) > found.width:
+            names = f"{found.width} columns" if found.header is None else f"the header has {found.width} names"
+            raise InputError(f"{len(trimmed(row, 0))} cells in row {k + 1}, but {names}: a separator that is also in the cells?")
+        else:
+            kept.append(k)
+    after = [k for k in range(found.last + 1, len(rows)) if any(rows[k])]
+    # Rows without their last, empty cells belong to the table, but a torn last line holds a torn number.
+    short = [k for k in after[:-1] if 2 <= len(rows[k]) < found.width and fits(rows[k], found.numeric, decimal)]
+    if skipped:
+        remarks.append(f"{skipped} lines within the table are comments or a repeated header and were skipped")
+    if left := len(after) - len(short):
+        remarks.append(
+            f"{left} {'line' if left == 1 else 'lines'} after the table (from line {after[-1] + 1}) not read as numbers"
+        )
+    return [*kept, *short], remarks
+
+
+def _units(row: Cells, width: int) -> list[str | None]:
+    own = [*row[:width], *[""] * (width - len(row))]
+    return [cell.strip("[]() ") if is_unit(cell) or unit_like(cell) else None for cell in own]
+
+
+def _rate(rows: Sequence[Cells]) -> float | None:
+    """Samples per second that the lines above a table state, as a rate or as an interval; None if they state none, or several."""
+    found = set()
+    for row in rows:
+        text = " ".join(row)
+        if match := _RATE.search(text):
+            found.add(_number(match[1]) * (1e3 if (match[2] or "").lower() == "khz" else 1.0))
+        elif match := _INTERVAL.search(text):
+            scale = {"ms": 1e-3, "us": 1e-6, "µs": 1e-6}.get((match[2] or "s").lower(), 1.0)
+            interval = _number(match[1]) * scale
+            found |= {1.0 / interval} if interval > 0.0 else set()
+    rates = {rate for rate in found if rate > 0.0}
+    return rates.pop() if len(rates) == 1 else None
+
+
+def _number(text: str) -> float:
+    return float(text.replace(",", "."))

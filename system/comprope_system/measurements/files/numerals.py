@@ -1,0 +1,74 @@
+"""Cells of text tables: numbers in any notation, and words that stand for no value."""
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+# What loggers and spreadsheets write where there is no value; compared without case, blanks and punctuation around it.
+MISSING_WORDS = frozenset(
+    [
+        "nan", "na", "n/a", "null", "none", "nil", "nv", "invalid", "bad", "error", "err", "fault", "missing", "undefined",
+        "undef", "ovl", "ovf", "ovr", "over", "overflow", "overrange", "over-range", "overload", "under", "underflow",
+        "underrange", "under-range", "ol", "+ol", "-ol", "unf", "ufl", "sat", "saturated", "open", "disconnected", "lost",
+        "offline", "timeout", "#n/a", "#na", "#value", "#value!", "#num!", "#div/0!", "#ref!", "1.#qnan", "1.#ind", "1.#inf",
+        "1.#inf00", "-1.#ind", "-1.#inf", "keine", "fehler", "ungültig",
+    ]
+)
+INFINITE_WORDS = frozenset(["inf", "+inf", "-inf", "infinity", "+infinity", "-infinity", "∞", "+∞", "-∞"])
+_DASHES = re.compile(r"[-–—_.*?=/\s]*")
+_MINUS = str.maketrans({"−": "-", "\u00a0": " ", "\u202f": " ", "\u2009": " "})
+_NUMBER = {
+    sign: re.compile(
+        rf"[+-]?(?:\d+(?:{re.escape(sign)}\d*)?|{re.escape(sign)}\d+|\d{{1,3}}(?:[{other}' ]\d{{3}})+(?:{re.escape(sign)}\d*)?)"
+        r"(?:[eEdD][+-]?\d+)?"
+    )
+    for sign, other in ((".", ","), (",", "."))
+}
+_PLAIN = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+
+
+def is_number(cell: str, decimal: str) -> bool:
+    """Whether a cell is a number with this decimal sign; thousands may be separated by the other, a blank or an apostrophe."""
+    return bool(_NUMBER[decimal].fullmatch(cell.translate(_MINUS).strip()))
+
+
+def is_missing(cell: str, words: Sequence[float | str] = ()) -> bool:
+    """Whether a cell is empty, dashes, a known word for no value, or one of the stated `words`."""
+    text = cell.strip().strip("<>[]()\"'").strip().lower()
+    return bool(_DASHES.fullmatch(text)) or text in MISSING_WORDS or text in {str(one).strip().lower() for one in words}
+
+
+def is_infinite(cell: str) -> bool:
+    """Whether a cell is written as infinity."""
+    return cell.strip().lower() in INFINITE_WORDS
+
+
+def parse(cell: str, decimal: str) -> float:
+    """The number of a cell for which `is_number` is true."""
+    other = "," if decimal == "." else "."
+    text = re.sub(rf"[{other}' ]", "", cell.translate(_MINUS).strip()).replace(decimal, ".")
+    return float(text.replace("D", "E").replace("d", "e"))
+
+
+def to_numbers(values: pd.Series, decimal: str, words: Sequence[float | str]) -> tuple[pd.Series, list[int], dict[str, int]]:
+    """Numbers (n,) of a text column, the indices of cells that are neither numbers nor missing, and the count of each word.
+
+    Cells of the plain notation are converted by pandas, as `read_csv` does it.
+    """
+    texts = values.where(values.notna(), "").astype(str).str.strip()
+    plain = texts.map(lambda cell: bool(_PLAIN.fullmatch(cell))) if decimal == "." else pd.Series(False, index=texts.index)
+    found = pd.to_numeric(texts.where(plain), errors="coerce").astype(float)
+    wrong, counts = [], dict[str, int]()
+    for k in np.flatnonzero(~plain.to_numpy()):
+        cell = texts.iloc[k]
+        if is_number(cell, decimal):
+            found.iloc[k] = parse(cell, decimal)
+        elif is_infinite(cell):
+            found.iloc[k] = -np.inf if cell.startswith("-") else np.inf
+        elif not is_missing(cell, words):
+            wrong.append(int(k))
+        elif cell:
+            counts[cell] = counts.get(cell, 0) + 1
+    return found, wrong, counts

@@ -1,0 +1,37 @@
+"""CSV and other text tables, also LabVIEW measurement files, in any dialect and encoding."""
+
+import re
+
+from .dialect import find_separator, split_line
+from .file_format import FileFormat
+from .grid import table_of
+from .raw_table import RawTable
+from .text_encoding import decode
+
+_LINE_END = re.compile(r"\r\n|\n|\r")
+_COMMA_STAMP = re.compile(r'^("?(?:[^,;\t]*[T ])?\d{1,2}:\d{2}:\d{2}),(\d{3,6})(?=["\s]*,)')
+
+
+def read_text_table(data: bytes, stated: FileFormat) -> RawTable:
+    """The table of a text file; raises `InputError`, without the file's name, if there is none."""
+    text = decode(data, stated.encoding)
+    lines = _LINE_END.split(text)
+    while lines and not lines[-1].strip():
+        lines.pop()
+    if lines and lines[0].lower().startswith("sep=") and len(lines[0].strip()) == 5:  # a line for spreadsheet programs
+        lines[0] = ""
+    separator, decimal = find_separator(lines, stated.separator, stated.decimal)
+    if separator == ",":
+        lines = _with_points_in_stamps(lines)
+    return table_of([split_line(line, separator) if line.strip() else [] for line in lines], decimal, stated)
+
+
+def _with_points_in_stamps(lines: list[str]) -> list[str]:
+    """Lines in which "09:12:01,123," is "09:12:01.123,", unless the header has a name for each of the two cells."""
+    stamped = [k for k, line in enumerate(lines) if _COMMA_STAMP.match(line)]
+    if len(stamped) < 0.5 * len(lines):
+        return lines
+    width = len(split_line(lines[stamped[0]], ","))
+    if any(len(split_line(line, ",")) == width for line in lines[: stamped[0]]):
+        return lines
+    return [_COMMA_STAMP.sub(r"\1.\2", line) for line in lines]
