@@ -52,7 +52,8 @@ _BY_SPELLING = {one: one for one in _CANONICAL} | {
 }
 _BY_LOWER = {spelling.lower(): unit for spelling, unit in reversed(_BY_SPELLING.items())}
 OTHER_UNITS = frozenset([
-    "°c", "degc", "c", "k", "°f", "hz", "khz", "bar", "pa", "kpa", "mpa", "kg", "t", "w", "kw", "deg", "°", "rad", "nm", "lbf", "lb",
+    "°c", "degc", "c", "k", "°f", "hz", "khz", "bar", "pa", "kpa", "mpa", "kg", "t", "w", "kw", "deg", "°", "rad", "nm", "lbf",
+    "lb",
     "kgf",
     "n·m", "text", "bool", "string", "date", "datetime",
 ])  # fmt: skip

@@ -65,7 +65,8 @@ def by_position_and_frequency(comparison: Comparison) -> Figure:
     for k, column in enumerate(comparison.campaign.channels):
         own = [one for run in comparison.runs for one in run.channels if one.column == column]
         left.stairs(
-            100.0 * _mean([one.by_place for one in own]), edges, color=COLOURS[k % len(COLOURS)], linewidth=1.4, label=plain(column)
+            100.0 * _mean([one.by_place for one in own]), edges, color=COLOURS[k % len(COLOURS)], linewidth=1.4,
+            label=plain(column),
         )
         right.plot(bands, 100.0 * _mean([one.by_band for one in own]), "o-", color=COLOURS[k % len(COLOURS)], markersize=4)
     label(left, "car position [m]", "NRMSE [%]")
@@ -90,7 +91,7 @@ def orders(comparison: Comparison) -> Figure:
     for axis, column in zip(axes, columns, strict=False):
         for k, run in enumerate(comparison.runs):
             one = next(c for c in run.channels if c.column == column)
-            axis.plot(ORDERS, one.orders / one.channel.scale, color=COLOURS[k % len(COLOURS)], linewidth=1.1, label=plain(run.file))
+            axis.plot(ORDERS, one.orders / one.channel.scale, color=COLOURS[k % len(COLOURS)], label=plain(run.file))
         for whole in range(1, 7):
             axis.axvline(whole, color=GREY, linewidth=0.6, linestyle=":")
         label(axis, "periods per revolution of the sheave", f"{column} [{comparison.campaign.channels[column].unit}]")
