@@ -242,13 +242,16 @@ MUTANTS = [
         ("rpm", '"rpm": np.pi / 30.0', '"rpm": np.pi / 60.0', UNITS),
         ("per_minute", '"1/min": np.pi / 30.0', '"1/min": 2.0 * np.pi', UNITS),
         ("deg_per_s", '"deg/s": np.pi / 180.0', '"deg/s": np.pi / 360.0', UNITS),
-        ("counterweight_unmirrored", "return car, car.mirrored(height)", "return car, car", UNITS),
-        ("counterweight_s_column_ignored", 'recover_trip(time, table["counterweight_position"])', "car.mirrored(height)", UNITS),
+    ),
+    *mutants(
+        "units", f"{MEASUREMENTS}/end_motions.py",
+        ("counterweight_unmirrored", "replace(trip.mirrored(height), remarks=())", "replace(trip, remarks=())", UNITS),
+        ("counterweight_s_column_ignored", "trip.mirrored(level + shift)", "trip.mirrored(height)", UNITS),
     ),
     *mutants(
         "units", f"{MEASUREMENTS}/trip.py",
-        ("mirror_without_the_height", "constant(height)", "constant(0.0)", UNITS),
-        ("mirror_that_does_not", "return -curve(time, order)", "return curve(time, order)", UNITS),
+        ("mirror_without_the_height", "constant(shift)", "constant(0.0)", UNITS),
+        ("mirror_that_does_not", "return factor * curve(time, order)", "return curve(time, order)", UNITS),
     ),
     *mutants(
         "units", FMI,

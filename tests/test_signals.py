@@ -152,7 +152,8 @@ def test_the_counterweight_mirrors_the_car():
         (np.arange(50.0)[::-1], np.zeros(50), r"time = 48 s in row 2: must be later"),
         (np.full(50, np.nan), np.zeros(50), "time: a finite number"),
         (np.arange(50.0), np.full(50, np.nan), "position: 0 numbers; at least 20"),
-        (np.arange(0.0, 5.0, 0.01), 2.0 * np.arange(0.0, 5.0, 0.01), "moves from the first sample on"),
+        (np.arange(0.0, 5.0, 0.01), np.where(np.arange(500) > 250, 30.0, 0.001), r"position changes in steps of 30 m"),
+        (np.arange(0.0, 5.0, 0.01), 30.0 * (np.arange(500) > 250) + 1e-3 * np.arange(500), r"position jumps .* at most 25 m/s"),
     ],
 )
 def test_what_is_no_trip_is_refused(time, position, told):

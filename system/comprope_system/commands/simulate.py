@@ -12,8 +12,14 @@ from comprope.errors import InputError
 from ._parameters import MODEL, SET
 from ._terminal import OutputFile, finish, progress_display, require_files
 
-FROM = Annotated[float | None, typer.Option("--from", metavar="M", help="Start position of the car; default the bottom landing.")]
-TO = Annotated[float | None, typer.Option("--to", metavar="M", help="Destination of the car; default the top landing.")]
+FROM = Annotated[
+    float | None,
+    typer.Option("--from", metavar="M", help="Start position; default the bottom landing, with --car as the record has it."),
+]
+TO = Annotated[
+    float | None,
+    typer.Option("--to", metavar="M", help="Destination; default the top landing, with --car as the record has it."),
+]
 SPEED = Annotated[float | None, typer.Option(metavar="M/S", help="Rated speed.")]
 ACCELERATION = Annotated[float | None, typer.Option(metavar="M/S2", help="Largest acceleration.")]
 JERK = Annotated[float | None, typer.Option(metavar="M/S3", help="Largest jerk.")]
@@ -21,6 +27,7 @@ DRIVE = Annotated[Path | None, typer.Option(metavar="FILE.toml", help="Drive fil
 TIME = Annotated[float | None, typer.Option(metavar="S", help="Simulated time; default the trip and 8 s at rest.")]
 STEP = Annotated[float, typer.Option(metavar="S", help="Communication step of the co-simulation.")]
 CAR = Annotated[Path | None, typer.Option(metavar="RUN.csv", help="Prescribe the measured motion; plot measured signals too.")]
+EXACT = Annotated[bool, typer.Option("--exact", help="With --car: take the motion as it is, without looking for a smooth trip.")]
 DIRECT = Annotated[bool, typer.Option("--direct", help="Simulate in this process instead of with FMUs; same numbers.")]
 FMU = Annotated[
     list[Path] | None,
@@ -55,6 +62,7 @@ class RunOptions:
     step: STEP = 0.01
     changes: SET = None
     car: CAR = None
+    exact: EXACT = False
     direct: DIRECT = False
     fmu: FMU = None
     one_way: ONE_WAY = False
@@ -79,7 +87,7 @@ def simulate(model: MODEL, motion: MotionOptions, options: RunOptions, files: Fi
     with progress_display() as progress:
         result = comprope_system.simulate(
             model,
-            comprope_system.CarMotion(**vars(motion), measured=options.car),
+            comprope_system.CarMotion(**vars(motion), measured=options.car, exact=options.exact),
             changes=options.changes, duration=options.time, step=options.step,
             coupling="one-way" if options.one_way else "two-way",
             fmu=_fmus(options, files), progress=progress,

@@ -7,15 +7,15 @@ from ..measurements import Trip
 
 
 class PrescribedMotion:
-    """Participant that outputs position, velocity and acceleration of car and counterweight.
+    """Participant that outputs position, velocity and acceleration of car and counterweight, and their lateral displacement.
 
-    Its outputs have the names of the drive's. It has no inputs.
+    Its outputs have the names of the drive's, and of the rope's inputs for lateral displacements. It has no inputs.
     """
 
-    def __init__(self, name: str, trips: Mapping[str, Trip]) -> None:
-        """`trips` by name: "car" and "counterweight"."""
+    def __init__(self, name: str, trips: Mapping[str, Trip], lateral: Mapping[str, Trip] | None = None) -> None:
+        """`trips` and outward displacements of the rope's ends by name: "car" and "counterweight"."""
         self.name = name
-        self._trips = dict(trips)
+        self._trips, self._lateral = dict(trips), dict(lateral or {})
         self._time = 0.0
 
     def enter_initialization(self, start: float) -> None:
@@ -27,11 +27,13 @@ class PrescribedMotion:
 
     def outputs(self) -> dict[str, Any]:
         """See `Participant`."""
-        return {
+        vertical = {
             f"{what}_{quantity}": float(getattr(trip, quantity)(self._time))
             for what, trip in self._trips.items()
             for quantity in ("position", "velocity", "acceleration")
         }
+        sideways = {f"{what}_lateral_displacement": float(trip.position(self._time)) for what, trip in self._lateral.items()}
+        return vertical | sideways
 
     def exit_initialization(self) -> None:
         """See `Participant`."""

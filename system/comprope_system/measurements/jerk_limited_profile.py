@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
+from scipy.ndimage import median_filter
 from scipy.optimize import least_squares
 
 from .trip import Piece
@@ -114,7 +115,5 @@ def _shape(parameters: Floats, phases: NDArray[np.int_]) -> Piece:
 
 def inliers(misfit: Floats, window: int = 31, limit: float = 5.0) -> NDArray[np.bool_]:
     """Which samples of a misfit, in standard deviations, are within `limit` of the running median."""
-    half = window // 2
-    padded = np.pad(misfit, half, mode="reflect") if len(misfit) > half else np.pad(misfit, half, mode="edge")
-    running = np.median(np.lib.stride_tricks.sliding_window_view(padded, window), axis=1)
+    running = median_filter(misfit, window, mode="mirror" if len(misfit) > window // 2 else "nearest")
     return np.abs(misfit - running) < limit

@@ -1,131 +1,161 @@
-"""Estimates the smooth motion of the car from a noisy encoder signal.
+"""Recovers the motion of the car, or of the counterweight, from its measured position.
 
-A car driven by a jerk-limited controller closely follows a profile of seven phases, so that profile is
-fitted first: a dozen parameters estimated from thousands of samples average out nearly all of the noise.
-Deviations from the profile (lag, overshoot, creeping) are added as a smoothing spline, only if they
-increase the likelihood sufficiently. A car that follows no such profile is described by the spline alone.
+Each motion between two rests is recovered as a smooth trip. Where that misses the signal by more than its noise allows, or
+the motion is none from rest to rest over some distance, the motion is taken as it is: the smoothest curve within
+the noise of every sample. What is returned has therefore been compared with the signal.
 """
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from comprope.errors import InputError
 
-from .jerk_limited_profile import Fit, Guess, fit_profile, inliers
-from .smoothing_spline import Smoothed, smooth
-from .trip import Piece, Trip, constant
+from .local_misfit import excess
+from .local_smoothing import smooth_within_noise
+from .motion_spans import motion_spans
+from .position_signal import Signal, no_motion, prepare, spikes
+from .smooth_trip import REST, recover_smooth_trip
+from .trip import ENDS_UNDER_WAY, Piece, Sequence, Trip, constant, continued, smooth_step
 
 Floats = NDArray[np.float64]
+Motion = Literal["auto", "exact"]
+MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
-REST = 0.1  # s at rest that a record must begin with
-LEVEL = 0.25  # s at either end of the record over which the median position is taken
-BEFORE, AFTER = 1.0, 2.0  # s: how far a deviation from the profile may reach beyond its ends
-LEAST_NOISE = 1e-6  # m; lower bound of the noise, for signals that are exact for all practical purposes
-EVIDENCE = 10.0  # decrease of -2 log likelihood from which on a spline is added to the profile
+MARGIN = 1.0  # s before and after a motion is seen beyond the noise, within which it may have begun and ended
+MOST_LEFT_OUT = 0.01  # share of samples left out as failures of the sensor without a remark
 
 
-def recover_trip(time: ArrayLike, position: ArrayLike) -> Trip:
-    """The smooth trip estimated from `position` [m] at `time` [s], both (n,), unevenly sampled, with gaps (NaN) and outliers.
+def recover_trip(time: ArrayLike, position: ArrayLike, motion: Motion = "auto") -> Trip:
+    """The motion estimated from `position` [m] at `time` [s], both (n,), unevenly sampled, with gaps (NaN) and outliers.
 
-    Raises `InputError` if times do not increase, fewer than 20 samples are numbers, or the car is
-    not at rest at the beginning. A record that ends before the trip does is accepted.
+    With `motion` "exact" no smooth trip is looked for. Raises `InputError` if times do not increase, fewer than 20 samples are
+    numbers, or the position jumps as no car does.
     """
-    t, x = _checked(np.asarray(time, dtype=float), np.asarray(position, dtype=float))
-    noise = _noise(t, x)
-    guess, arrives = _guess(t, x, noise)
-    if guess is None:
-        return Trip((Piece(constant(float(np.mean(x))), float(t[0]), float(t[0])),), max(float(np.std(x)), noise), "rest")
-    free = _free(t, x, noise, guess, arrives)
+    return recover_signal(prepare(np.asarray(time, dtype=float), np.asarray(position, dtype=float)), motion)
+
+
+def recover_signal(signal: Signal, motion: Motion = "auto") -> Trip:
+    """The motion behind a prepared signal; see `recover_trip`."""
+    left_out = spikes(signal.time, signal.position, signal.noise, signal.rounded)
+    if sentence := no_motion(signal, left_out):
+        raise InputError(sentence)
+    trip = _recovered(signal, ~left_out, motion)
+    return replace(trip, remarks=(*_of_signal(signal, left_out), *trip.remarks))
+
+
+def _recovered(signal: Signal, good: NDArray[np.bool_], motion: Motion) -> Trip:
+    spans = motion_spans(signal.of(good))
+    if not spans:
+        return _checked(_rest(signal.of(good)), signal.of(good), (float(signal.time[0]), float(signal.time[-1])))
+    whole = spans[0][0], spans[-1][1]
+    if motion == "exact":
+        return _exact(signal.of(good), whole, "")
+    if len(spans) == 1:
+        return _one(signal, good, whole)
+    # A window reaches from the end of the motion before to the beginning of the next.
+    limits = [-np.inf, *(0.5 * (one[1] + other[0]) for one, other in pairwise(spans)), np.inf]
+    windows = [(-np.inf, spans[1][0]), *((spans[k - 1][1], spans[k + 1][0]) for k in range(1, len(spans) - 1))]
+    windows.append((spans[-2][1], np.inf))
+    trips = []
+    for (begin, end), span in zip(windows, spans, strict=True):
+        inside = (signal.time >= begin) & (signal.time <= end)
+        trips.append(_one(signal.of(inside), good[inside], span))
+    joined = _joined(trips, limits[1:-1], signal.of(good))
+    return _checked(joined, signal.of(good), whole)
+
+
+def _one(signal: Signal, good: NDArray[np.bool_], span: tuple[float, float]) -> Trip:
+    """The trip of a signal with one motion, at rest or not before and after it."""
+    kept = signal.of(good)
+    departs = span[0] - float(signal.time[0]) >= REST
+    smooth = recover_smooth_trip(signal) if departs else None
+    if smooth is None:
+        return _exact(kept, span, "no trip from rest to another height; the motion is taken as it is")
+    return _checked(smooth, kept, span)
+
+
+def _checked(trip: Trip, signal: Signal, span: tuple[float, float]) -> Trip:
+    """The trip if it fits the signal, otherwise the motion as it is, with a remark."""
+    residual = np.abs(signal.position - trip.position(signal.time))
+    over = excess(signal, trip.position(signal.time))
+    if over.max() <= 1.0:
+        return trip
+    single = _single(over > 1.0, residual)
+    others = signal.of(~single)
+    if single.mean() <= MOST_LEFT_OUT and excess(others, trip.position(others.time)).max() <= 1.0:
+        size = f"up to {1e3 * residual[single].max():.3g} mm from a smooth trip"
+        return replace(trip, remarks=(*trip.remarks, f"{single.sum()} single samples are left out, {size}"))
+    worst = int(np.argmax(residual * (over > 1.0)))
+    miss = 1e3 * float(residual[worst])
+    what = {"rest": "rest", "trips": "a series of trips"}.get(trip.kind, "a smooth trip")
+    by = f"{what} misses the measured position by up to {miss:.3g} mm at time = {signal.time[worst]:.4g} s"
+    return _exact(signal, span, f"{by} (noise {1e3 * signal.noise:.2g} mm); the motion is taken as it is")
+
+
+def _single(misses: NDArray[np.bool_], residual: Floats) -> NDArray[np.bool_]:
+    """The largest residual of each run of samples that miss: where this is all, one sample has failed."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], misses.astype(np.int8), [0])))).reshape(-1, 2)
+    found = np.zeros(len(misses), bool)
+    for first, after in edges:
+        found[first + int(np.argmax(residual[first:after]))] = True
+    return found
+
+
+def _exact(signal: Signal, span: tuple[float, float], remark: str) -> Trip:
+    """The smoothest motion within the noise, at rest outside `span` where the record reaches beyond it."""
+    first, last = float(signal.time[0]), float(signal.time[-1])
+    departs, arrives = span[0] - first >= REST, last - span[1] >= REST
+    start = max(span[0] - MARGIN, first) if departs else first
+    stop = min(span[1] + MARGIN, last) if arrives else last
+    piece = smooth_within_noise(signal, start, stop, departs, arrives)
     if not arrives:
-        return free[0]
-    fit = fit_profile(t, x, noise, guess)
-    shaped = _shaped(t, x, fit)
-    return min((free, shaped), key=lambda candidate: candidate[1])[0]
+        piece = continued(piece)
+    residual = signal.position - piece.value(signal.time)
+    remarks = [remark] if remark else []
+    if (over := excess(signal, piece.value(signal.time))).max() > 1.0:
+        worst = int(np.argmax(np.abs(residual) * (over > 1.0)))
+        where = f"at time = {signal.time[worst]:.4g} s"
+        remarks.append(f"the recovered motion misses the measured position by {1e3 * abs(residual[worst]):.3g} mm {where}")
+    if not departs:
+        remarks.append("the record begins under way")
+    if not arrives:
+        remarks.append(ENDS_UNDER_WAY)
+    return Trip((piece,), float(np.std(residual)), "exact", tuple(remarks))
 
 
-def _checked(time: Floats, position: Floats) -> tuple[Floats, Floats]:
-    known = np.isfinite(position)
-    if time.ndim != 1 or time.shape != position.shape or not np.all(np.isfinite(time)):
-        raise InputError("time: a finite number is needed in every row")
-    if np.any(np.diff(time) <= 0.0):
-        row = int(np.argmax(np.diff(time) <= 0.0)) + 2
-        raise InputError(f"time = {time[row - 1]:g} s in row {row}: must be later than the row before")
-    if known.sum() < 20:
-        raise InputError(f"position: {known.sum()} numbers; at least 20 are needed to estimate the motion of the car")
-    return time[known], position[known]
+def _rest(signal: Signal) -> Trip:
+    level = float(np.mean(signal.position))
+    noise = max(float(np.std(signal.position)), signal.noise)
+    return Trip((Piece(constant(level), float(signal.time[0]), float(signal.time[0])),), noise, "rest")
 
 
-def _noise(time: Floats, position: Floats) -> float:
-    """Standard deviation [m] of the noise, from the distance of each sample to the line between its neighbours."""
-    before, after = np.diff(time)[:-1], np.diff(time)[1:]
-    share = before / (before + after)
-    gap = position[1:-1] - (1.0 - share) * position[:-2] - share * position[2:]
-    close = before + after <= 3.0 * np.median(before + after)
-    scaled = np.abs(gap / np.sqrt(1.0 + share**2 + (1.0 - share) ** 2))[close]
-    return max(1.4826 * float(np.median(scaled)), _resolution(position) / 12.0**0.5, LEAST_NOISE)
+def _joined(trips: list[Trip], breaks: list[float], signal: Signal) -> Trip:
+    """One trip of several, which change at `breaks` [s], with equal levels at each rest between two."""
+    levels = [(float(one.position(one.rest_before)), float(one.position(one.rest_after))) for one in trips]
+    rests = [levels[0][0], *(0.5 * (one[1] + other[0]) for one, other in pairwise(levels)), levels[-1][1]]
+    parts = []
+    for one, (before, after), begin, end in zip(trips, levels, rests, rests[1:], strict=False):
+        start, stop = one.rest_before, one.rest_after
+        part = (*one.pieces, Piece(constant(begin - before), start, start))
+        if np.isfinite(stop):
+            part = (*part, Piece(smooth_step(start, stop, end - after - begin + before), start, stop))
+        parts.append(part)
+    curve = Sequence(tuple(breaks), tuple(parts))
+    piece = Piece(curve, trips[0].rest_before, trips[-1].rest_after)
+    remarks = tuple(dict.fromkeys(remark for one in trips for remark in one.remarks))
+    noise = float(np.std(signal.position - piece.value(signal.time)))
+    return Trip((piece,), noise, "trips", remarks)
 
 
-def _resolution(position: Floats) -> float:
-    """Smallest difference [m] between two values of a signal: its rounding is noise that does not show at rest."""
-    steps = np.diff(np.unique(np.round(position, 9)))
-    return float(steps.min()) if len(steps) else 0.0
-
-
-def _guess(time: Floats, position: Floats, noise: float) -> tuple[Guess | None, bool]:
-    """Initial guess of the trip, None for a car at rest; and whether the record includes the end of the trip."""
-    first = float(np.median(position[time <= time[0] + LEVEL]))
-    last = float(np.median(position[time >= time[-1] - LEVEL]))
-    away, back = _lasting(np.abs(position - first) > 6.0 * noise), _lasting(np.abs(position - last)[::-1] > 6.0 * noise)
-    if away is None or back is None or abs(last - first) < 6.0 * noise:
-        return None, True
-    start, stop = float(time[away]), float(time[len(time) - 1 - back])
-    if start - time[0] < REST:
-        raise InputError(f"position: the car moves from the first sample on; it must be at rest for {REST} s before the trip")
-    quarter, three = (time[np.argmax((position - first) / (last - first) > part)] for part in (0.25, 0.75))
-    speed = abs(last - first) / max(2.0 * float(three - quarter), 0.1)
-    return Guess(first, last - first, start, stop, speed), time[-1] - stop >= REST
-
-
-def _lasting(moved: NDArray[np.bool_], count: int = 5) -> int | None:
-    """Index of the first of `count` successive true values; fewer are taken for outliers."""
-    runs = np.lib.stride_tricks.sliding_window_view(moved, count).all(axis=1)
-    return int(np.argmax(runs)) if runs.any() else None
-
-
-def _free(time: Floats, position: Floats, noise: float, guess: Guess, arrives: bool) -> tuple[Trip, float]:
-    """The trip as a smoothing spline without outliers, and its -2 log likelihood."""
-    start = max(guess.start - BEFORE, float(time[0]))
-    stop = min(guess.stop + AFTER, float(time[-1])) if arrives else float(time[-1])
-    used = _near_neighbours(time, position, noise)
-    smoothed = smooth(time[used], position[used], start, stop, arrives)
-    used &= inliers((position - smoothed.piece.value(time)) / noise)
-    smoothed = smooth(time[used], position[used], start, stop, arrives)
-    return _trip((smoothed.piece,), time[used], position[used], "spline"), smoothed.criterion
-
-
-def _near_neighbours(time: Floats, position: Floats, noise: float) -> NDArray[np.bool_]:
-    """Which samples are close to the median of the lines between pairs of neighbours, one to five samples away."""
-    index = np.arange(len(time))
-    lines = []
-    for reach in (1, 2, 3, 4, 5):
-        left, right = np.clip(index - reach, 0, None), np.clip(index + reach, None, len(time) - 1)
-        share = (time - time[left]) / np.maximum(time[right] - time[left], 1e-9)
-        lines.append(position[left] + share * (position[right] - position[left]))
-    reach_time = time[np.clip(index + 3, None, len(time) - 1)] - time[np.clip(index - 3, 0, None)]
-    return np.abs(position - np.median(lines, axis=0)) < 8.0 * noise + 0.5 * reach_time**2
-
-
-def _shaped(time: Floats, position: Floats, fit: Fit) -> tuple[Trip, float]:
-    """The trip as a profile, with a spline of the residual if EVIDENCE supports it; and -2 log likelihood."""
-    t, x = time[fit.used], position[fit.used]
-    start, stop = max(fit.piece.start - BEFORE, float(time[0])), min(fit.piece.stop + AFTER, float(time[-1]))
-    rest: Smoothed = smooth(t, x - fit.piece.value(t), start, max(stop, start + 1.0))
-    price = len(fit.parameters) * float(np.log(len(t)))
-    if rest.constant_criterion - rest.criterion < EVIDENCE:
-        return _trip((fit.piece,), t, x, "profile"), rest.constant_criterion + price
-    return _trip((fit.piece, rest.piece), t, x, "profile and spline"), rest.criterion + price
-
-
-def _trip(pieces: tuple[Piece, ...], time: Floats, position: Floats, kind: str) -> Trip:
-    bare = Trip(pieces, 0.0, kind)
-    return Trip(pieces, float(np.std(position - bare.position(time))), kind)
+def _of_signal(signal: Signal, left_out: NDArray[np.bool_]) -> list[str]:
+    """Sentences about the signal itself."""
+    found = []
+    if signal.held:
+        found.append(f"the signal holds its values for {signal.held:.3g} s; only the samples at which it changes are used")
+    if (share := float(np.mean(left_out))) > MOST_LEFT_OUT:
+        found.append(f"{100.0 * share:.2g} % of the samples continue no motion and are left out")
+    return found

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
-from scipy.linalg import cho_solve_banded, cholesky_banded
 from scipy.optimize import minimize_scalar
-from scipy.sparse import csr_array, diags_array, eye_array, vstack
+from scipy.sparse import csr_array, diags_array, eye_array
 
+from .banded_least_squares import PenalisedProblem
 from .trip import Piece
 
 Floats = NDArray[np.float64]
@@ -40,11 +40,11 @@ def smooth(time: Floats, signal: Floats, start: float, stop: float, rest_after: 
     those times count for the constant values held there. `time`, `signal`: (n,).
     """
     knots = _knots(start, stop)
-    tie = _tie(len(knots) - DEGREE - 1, rest_after)
+    tie = end_ties(len(knots) - DEGREE - 1, True, rest_after)
     design = csr_array(BSpline.design_matrix(np.clip(time, start, stop), knots, DEGREE)) @ tie
-    roughness = _third_derivative(knots) @ tie
+    roughness = third_derivative(knots, DEGREE) @ tie
     offset = float(np.mean(signal))
-    problem = _Problem(design, roughness, signal - offset)
+    problem = PenalisedProblem(design, roughness, signal - offset, DEGREE)
     best = minimize_scalar(lambda weight: problem.solve(weight)[0], bounds=RANGE, method="bounded", options={"xatol": 0.02})
     criterion, coefficients = problem.solve(best.x)
     curve = BSpline(knots, tie @ coefficients + offset, DEGREE)
@@ -57,57 +57,26 @@ def _knots(start: float, stop: float) -> Floats:
     return np.concatenate((np.full(DEGREE, start), inner, np.full(DEGREE, stop)))
 
 
-def _tie(count: int, rest_after: bool) -> csr_array:
+def end_ties(count: int, rest_before: bool, rest_after: bool) -> csr_array:
     """Matrix from the free coefficients to all: three equal coefficients at an end make derivatives there vanish."""
-    free = eye_array(count - 2, format="csr")
-    parts = [free[:1], free[:1], free]
-    tie = csr_array(vstack(parts))
-    if not rest_after:
-        return tie
-    keep = np.minimum(np.arange(count), count - 3)
-    return csr_array(tie[keep][:, : count - 4])
+    kept = np.clip(np.arange(count), 2 if rest_before else 0, count - 3 if rest_after else count - 1)
+    free = np.unique(kept)
+    shape = (count, len(free))
+    return csr_array((np.ones(count), (np.arange(count), np.searchsorted(free, kept))), shape=shape)
 
 
-def _third_derivative(knots: Floats) -> csr_array:
+def third_derivative(knots: Floats, degree: int) -> csr_array:
     """Matrix from coefficients to the third derivative at Gauss points, so weighted that squares sum to the integral."""
-    matrix, inner = eye_array(len(knots) - DEGREE - 1, format="csr"), knots
-    for degree in range(DEGREE, DEGREE - 3, -1):
-        width = inner[degree + 1 : -1] - inner[1 : -degree - 1]
+    matrix, inner = eye_array(len(knots) - degree - 1, format="csr"), knots
+    for order in range(degree, degree - 3, -1):
+        width = inner[order + 1 : -1] - inner[1 : -order - 1]
         count = len(width)
         step = diags_array([np.full(count, -1.0), np.ones(count)], offsets=[0, 1], shape=(count, count + 1))
-        matrix, inner = diags_array(degree / width) @ step @ matrix, inner[1:-1]
+        matrix, inner = diags_array(order / width) @ step @ matrix, inner[1:-1]
     breaks = np.unique(knots)
-    nodes, weights = np.polynomial.legendre.leggauss(3)
+    nodes, weights = np.polynomial.legendre.leggauss(degree - 2)
     half = 0.5 * np.diff(breaks)
     points = (breaks[:-1] + half)[:, None] + half[:, None] * nodes
     scale = np.sqrt(half[:, None] * weights).ravel()
-    design = csr_array(BSpline.design_matrix(points.ravel(), inner, DEGREE - 3))
+    design = csr_array(BSpline.design_matrix(points.ravel(), inner, degree - 3))
     return csr_array(diags_array(scale) @ design @ matrix)
-
-
-class _Problem:
-    """Penalised least squares with banded normal matrices."""
-
-    def __init__(self, design: csr_array, roughness: csr_array, signal: Floats) -> None:
-        self.data, penalty = _banded(design.T @ design), _banded(roughness.T @ roughness)
-        self.penalty = penalty * (self.data[0].sum() / penalty[0].sum())
-        self.right, self.square = design.T @ signal, float(signal @ signal)
-        self.count, self.rank = len(signal), self.data.shape[1] - 1
-
-    def solve(self, weight: float) -> tuple[float, Floats]:
-        """-2 log restricted likelihood (less a constant) and coefficients for log10 of the penalty's weight."""
-        factor = cholesky_banded(self.data + 10.0**weight * self.penalty, lower=True)
-        coefficients = cho_solve_banded((factor, True), self.right)
-        # Lower bound for the likelihood of a signal without noise: the rounding of values in the file.
-        misfit = max(self.square - float(coefficients @ self.right), 1e-14 * self.count)
-        determinant = 2.0 * np.log(factor[0]).sum() - self.rank * weight * np.log(10.0)
-        return (self.count - 1) * np.log(misfit / self.count) + determinant, coefficients
-
-
-def _banded(matrix: csr_array) -> Floats:
-    """Lower diagonals (6, n) of a symmetric matrix of half-bandwidth 5."""
-    size = matrix.shape[0]
-    bands = np.zeros((DEGREE + 1, size))
-    for offset in range(DEGREE + 1):
-        bands[offset, : size - offset] = matrix.diagonal(-offset)
-    return bands

@@ -50,11 +50,17 @@ def driven_elevator(model: RopeModel, drive: Drive, direct: bool = False, fmus: 
 
 @contextmanager
 def prescribed_elevator(
-    model: RopeModel, trips: Mapping[str, Trip], direct: bool = False, fmus: NamedFmus = OWN_FMUS
+    model: RopeModel,
+    trips: Mapping[str, Trip],
+    lateral: Mapping[str, Trip],
+    direct: bool = False,
+    fmus: NamedFmus = OWN_FMUS,
 ) -> Iterator[Elevator]:
-    """The rope with prescribed motion of car and counterweight; see `PrescribedMotion`."""
+    """The rope with prescribed motion of car and counterweight and, where given, of its ends sideways; see `PrescribedMotion`."""
+    sideways = tuple(f"{end}_lateral_displacement" for end in lateral)
+    connections = FORWARD + tuple(Connection("motion", one, "rope", one) for one in sideways)
     with ExitStack() as stack:
-        yield Elevator((PrescribedMotion("motion", trips), _rope(stack, model, direct, fmus)), FORWARD, False)
+        yield Elevator((PrescribedMotion("motion", trips, lateral), _rope(stack, model, direct, fmus)), connections, False)
 
 
 def start_values(interface: ModelInterface) -> dict[str, Any]:

@@ -36,10 +36,11 @@ class SimulationResult(Result, Simulated):
         return f"{self.model_name}: the car from {figures['car']}, {figures['duration']} simulated"
 
     def summary(self) -> str:
-        """Key figures of the trip, one per line."""
+        """Key figures of the trip, one per line, and remarks about a measured motion."""
         lines = summary(self)
         width = max(len(name) for name, _ in lines)
-        return "\n".join(f"{name:<{width}}  {text}" for name, text in lines)
+        remarks = self.measured.remarks if self.measured else ()
+        return "\n".join((*(f"{name:<{width}}  {text}" for name, text in lines), *(f"note: {remark}" for remark in remarks)))
 
     def to_json(self) -> dict[str, Any]:
         """Key figures, the columns with their units, and the table as lists, in SI units."""
@@ -47,6 +48,7 @@ class SimulationResult(Result, Simulated):
             "model": self.model_name,
             "sensors": list(self.sensors),
             "key_figures": dict(summary(self)),
+            "remarks": list(self.measured.remarks) if self.measured else [],
             "units": {"time": "s"} | {one.name: one.unit for one in self.columns},
             "table": plain({name: self.table[name].to_numpy() for name in self.table}),
         }

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import inf
+from math import ceil, inf
 from pathlib import Path
 from typing import Any
 
@@ -36,11 +36,18 @@ class Simulated:
 
 @dataclass(frozen=True)
 class Timing:
-    """Simulated time and communication step [s], and the coupling of drive and rope."""
+    """Simulated time and communication step [s], the coupling of drive and rope, first time and a run-up before it [s]."""
 
     duration: float
     step: float = 0.01
     coupling: Coupling = "two-way"
+    begin: float = 0.0
+    run_up: float = 0.0
+
+    @property
+    def steps_before(self) -> int:
+        """Communication steps of the run-up, which are not recorded."""
+        return ceil(self.run_up / self.step * (1.0 - 1e-9))
 
     def __post_init__(self) -> None:
         """Raises `InputError` for impossible times."""
@@ -51,16 +58,18 @@ class Timing:
 
 
 def simulate(elevator: Elevator, sensors: Sequence[str], timing: Timing, progress: Progress | None = None) -> Simulated:
-    """Run the elevator from time 0 and record every communication step.
+    """Run the elevator from its first time on and record every communication step after the run-up.
 
     `sensors` are the names of the model's sensors in their order; `progress(count, total)` is called after each step.
     """
     chosen = columns(sensors, elevator.driven)
     rows = []
+    before = timing.steps_before * timing.step
     for sample in co_simulate(
-        elevator.participants, elevator.connections, timing.duration, timing.step, coupling=timing.coupling
+        elevator.participants, elevator.connections, before + timing.duration, timing.step, timing.begin - before, timing.coupling
     ):
-        rows.append(_row(sample, chosen, sensors))
+        if sample.count >= timing.steps_before:
+            rows.append(_row(sample, chosen, sensors))
         if progress:
             progress(sample.count, sample.total)
     table = pd.DataFrame(rows, columns=["time", *(one.name for one in chosen)])

@@ -9,6 +9,7 @@ from typing import Any
 
 from comprope.drive.parameters import Drive
 from comprope.drive.trajectory.reference_trajectory import first_trajectory
+from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import RopeSimulator
@@ -17,13 +18,15 @@ from comprope.rope.simulator.rope import CompensationRope
 from ..cosim.fmu_cache import NamedFmus
 from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.master import Coupling
+from ..measurements.anchoring import Landings
+from ..measurements.end_motions import MotionOptions
 from ..parallel.progress import Progress, no_progress
 from ..presets import model_path
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
 from ..presets.overrides import Changes, by_key
 from .animation.frames import FrameRecorder
 from .elevator import OWN_FMUS, Elevator, driven_elevator, prescribed_elevator
-from .measured_run import read_run
+from .measured_run import Run, measured_timing, read_run
 from .result import SimulationResult
 from .trip_simulation import Timing
 from .trip_simulation import simulate as simulate_trip
@@ -37,7 +40,9 @@ class CarMotion:
 
     `start` and `end` are heights above the bottom landing [m], by default the two terminal landings; `speed` [m/s],
     `acceleration` [m/s2] and `jerk` [m/s3] replace the drive's limits. `drive` is a parameter file or a `Drive`, by default the
-    preset's own. `measured` is a CSV file with `time` and `car_position`, which the car then follows instead.
+    preset's own. `measured` is a CSV file with `time` and `car_position`, which the car then follows instead; `start` and `end`
+    are then the heights at the start and end of the record, where its zero is another, and `exact` takes the motion as it
+    is, without looking for a smooth trip.
     """
 
     start: float | None = None
@@ -47,6 +52,7 @@ class CarMotion:
     jerk: float | None = None
     drive: DriveInput | None = None
     measured: str | Path | None = None
+    exact: bool = False
 
 
 def simulate(
@@ -73,29 +79,40 @@ def simulate(
     rope_model, drive_changes = _model(model, changes)
     names, measured = [sensor.name for sensor in rope_model.sensors], None
     if motion.measured:
-        measured = read_run(Path(motion.measured), rope_model.shaft.height, names)
+        measured = _measured(motion, rope_model, names)
         own, source = by_key(changes)
         rope_model = with_changes(rope_model, measured.changes | own, source)
     elevator: AbstractContextManager[Elevator]
     if measured:
-        elevator, natural = prescribed_elevator(rope_model, measured.trips, fmus is None, fmus or OWN_FMUS), measured.end
+        elevator = prescribed_elevator(rope_model, measured.trips, measured.lateral, fmus is None, fmus or OWN_FMUS)
+        timing = measured_timing(measured, duration, step, coupling)
     else:
         elevator, natural = _driven(model, motion, rope_model, drive_changes, fmus)
-    timing = Timing(natural if duration is None else duration, step, coupling)
+        timing = Timing(natural if duration is None else duration, step, coupling)
     with elevator as ready:
         recorder = None if fmus else FrameRecorder(partial(_rope, ready), timing.step)
-        simulated = simulate_trip(ready, names, timing, partial(_advance, progress, recorder))
+        simulated = simulate_trip(ready, names, timing, partial(_advance, progress, recorder, timing.steps_before))
     recording = recorder.recording if recorder else None
     return SimulationResult(
         simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording
     )
 
 
-def _advance(progress: Progress, recorder: FrameRecorder | None, count: int, total: int) -> None:
-    """Report progress of a communication step, and record the shape of the rope if available."""
+def _measured(motion: CarMotion, model: RopeModel, sensors: Sequence[str]) -> Run:
+    """The measured run that the car follows; raises `InputError` for options that concern the drive."""
+    unused = [name for name in ("speed", "acceleration", "jerk", "drive") if getattr(motion, name) is not None]
+    if unused:
+        raise InputError(f"{', '.join(unused)}: not accepted with a measured motion, which has no drive")
+    asked = motion.exact or motion.start is not None or motion.end is not None
+    options = MotionOptions("exact" if motion.exact else "auto", Landings(motion.start, motion.end)) if asked else None
+    return read_run(Path(str(motion.measured)), model.shaft.height, sensors, options)
+
+
+def _advance(progress: Progress, recorder: FrameRecorder | None, before: int, count: int, total: int) -> None:
+    """Report progress of a communication step, and record the shape of the rope if available, after a run-up of some steps."""
     progress("simulating", count, total)
-    if recorder:
-        recorder(count, total)
+    if recorder and count >= before:
+        recorder(count - before, total - before)
 
 
 def _rope(elevator: Elevator) -> CompensationRope:

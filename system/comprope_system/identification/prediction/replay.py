@@ -13,6 +13,7 @@ from comprope.rope.model_file import with_changes
 from comprope.rope.parameters import Base
 from comprope.rope.simulator.rope import CompensationRope
 
+from ...measurements import Trip
 from ..data.campaign import Channel, Run
 from ..settings import REPLAY
 
@@ -79,15 +80,17 @@ def relative_to_rest(values: dict[str, Floats], run: Run, channels: Mapping[str,
 
 
 def output_times(run: Run) -> Floats:
-    """Times [s] of the outputs of a replay, from the start of the record to just beyond its end."""
-    count = int(np.ceil((run.time[-1] - run.time[0]) / REPLAY.output_interval)) + 2
-    return np.asarray(run.time[0] + REPLAY.output_interval * np.arange(count))
+    """Times [s] of the outputs of a replay, from the start of the record, or of a run-up before it, to just beyond its end."""
+    begin, run_up = run.time[0], max(0.0, run.time[0] - run.trip.rest_before)
+    first = -int(np.ceil(run_up / REPLAY.output_interval))
+    count = int(np.ceil((run.time[-1] - begin) / REPLAY.output_interval)) + 2
+    return np.asarray(begin + REPLAY.output_interval * np.arange(first, count))
 
 
 def _simulated_channels(rope: CompensationRope, run: Run, grid: Floats, channels: Mapping[str, Channel]) -> dict[str, Floats]:
     """Value of each channel [SI] and whether it is in view (1 or 0) at the times of the grid: (times, 2)."""
     motion = end_motion(rope.model, run, grid)
-    rope.solve_equilibrium(-motion[0, 0, 0], -motion[0, 2, 0], time=float(grid[0]))
+    rope.solve_equilibrium(*start_of(rope.model, motion), time=float(grid[0]))
     found = {column: np.ones((len(grid), 2)) for column in channels}
     sensors = {sensor.name: sensor for sensor in rope.model.sensors}
     with_forces = any(one.quantity.endswith(("force", "tension")) for one in channels.values())
@@ -108,6 +111,20 @@ def end_motion(model: Base, run: Run, grid: Floats) -> Floats:
     """Position, velocity and acceleration of the four coordinates of the rope's ends: (times, 4, 3) [SI]."""
     motion = np.zeros((len(grid), 4, 3))
     for k, trip in ((0, run.trip), (2, run.counterweight)):
-        motion[:, k] = -np.column_stack([trip.position(grid), trip.velocity(grid), trip.acceleration(grid)])
-    motion[:, 1, 0], motion[:, 3, 0] = -model.sheave.radius, model.sheave.radius
+        motion[:, k] = -_derivatives(trip, grid)
+    for k, end, sign in ((1, "car", -1.0), (3, "counterweight", 1.0)):
+        motion[:, k, 0] = sign * model.sheave.radius
+        if end in run.lateral:
+            motion[:, k] += sign * _derivatives(run.lateral[end], grid)
     return motion
+
+
+def _derivatives(trip: Trip, grid: Floats) -> Floats:
+    """Position, velocity and acceleration (times, 3) [SI]."""
+    return np.column_stack([trip.position(grid), trip.velocity(grid), trip.acceleration(grid)])
+
+
+def start_of(model: Base, motion: Floats) -> tuple[float, float, tuple[float, float]]:
+    """Heights [m] and outward displacements [m] of car and counterweight end at the start of a motion (times, 4, 3)."""
+    (car, car_side, counterweight, counterweight_side), radius = motion[0, :, 0], model.sheave.radius
+    return -float(car), -float(counterweight), (-float(car_side) - radius, float(counterweight_side) - radius)

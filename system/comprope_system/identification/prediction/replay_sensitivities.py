@@ -14,7 +14,7 @@ from comprope.rope.simulator.sensitive_rope import SensitiveRope
 
 from ..data.campaign import Channel, Run
 from ..settings import REPLAY
-from .replay import Floats, Replay, end_motion, instrument, output_times, relative_to_rest
+from .replay import Floats, Replay, end_motion, instrument, output_times, relative_to_rest, start_of
 
 FORCES = ("force", "tension")
 
@@ -75,7 +75,7 @@ def _simulated_channels(
 ) -> tuple[dict[str, Floats], dict[str, Floats]]:
     """Each channel and its derivatives (times, 1 + directions) on the grid, and where it is out of view (times,)."""
     motion = end_motion(rope.rope.model, run, grid)
-    rope.solve_equilibrium(-motion[0, 0, 0], -motion[0, 2, 0], time=float(grid[0]))
+    rope.solve_equilibrium(*start_of(rope.rope.model, motion), time=float(grid[0]))
     found = {column: np.zeros((len(grid), 1 + len(rope.names))) for column in channels}
     hidden = {column: np.zeros(len(grid)) for column in channels}
     readings = np.zeros((len(grid), len(rope.rope.model.sensors), 2 + len(rope.names)))

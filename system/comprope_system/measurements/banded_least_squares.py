@@ -1,0 +1,40 @@
+"""Penalised least squares with banded normal matrices, and the likelihood of the penalty's weight."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.sparse import csr_array
+
+Floats = NDArray[np.float64]
+
+
+class PenalisedProblem:
+    """Least squares |design c - signal|^2 + weight scale |roughness c|^2 for the coefficients c of a spline of some degree.
+
+    `scale` makes a weight of 1 balance both matrices, unless it is given.
+    """
+
+    def __init__(self, design: csr_array, roughness: csr_array, signal: Floats, degree: int, scale: float | None = None) -> None:
+        self.data, penalty = _banded(design.T @ design, degree), _banded(roughness.T @ roughness, degree)
+        self.scale = self.data[0].sum() / penalty[0].sum() if scale is None else scale
+        self.penalty = penalty * self.scale
+        self.right, self.square = design.T @ signal, float(signal @ signal)
+        self.count, self.rank = len(signal), self.data.shape[1] - 1
+
+    def solve(self, weight: float) -> tuple[float, Floats]:
+        """-2 log restricted likelihood (less a constant) and coefficients for log10 of the penalty's weight."""
+        factor = cholesky_banded(self.data + 10.0**weight * self.penalty, lower=True)
+        coefficients = cho_solve_banded((factor, True), self.right)
+        # Lower bound for the likelihood of a signal without noise: the rounding of values in the file.
+        misfit = max(self.square - float(coefficients @ self.right), 1e-14 * self.count)
+        determinant = 2.0 * np.log(factor[0]).sum() - self.rank * weight * np.log(10.0)
+        return (self.count - 1) * np.log(misfit / self.count) + determinant, coefficients
+
+
+def _banded(matrix: csr_array, degree: int) -> Floats:
+    """Lower diagonals (degree + 1, n) of a symmetric matrix."""
+    size = matrix.shape[0]
+    bands = np.zeros((degree + 1, size))
+    for offset in range(degree + 1):
+        bands[offset, : size - offset] = matrix.diagonal(-offset)
+    return bands

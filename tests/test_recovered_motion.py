@@ -1,0 +1,174 @@
+"""Motions that are no single smooth trip, or measured otherwise than as a height, are recovered within the signal's noise."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comprope.errors import InputError
+from comprope_system.measurements import recover_trip
+from comprope_system.measurements.anchoring import Landings
+from comprope_system.measurements.end_motions import MotionOptions, recover_ends
+from comprope_system.measurements.jerk_limited_profile import jerk_limited
+
+HEIGHT = 50.0
+NOISE = 5e-4  # m
+PHASES = np.array([1.0, 2.125, 1.0, 2.0, 1.0, 2.125, 1.0])  # s
+
+
+def trip(distance, start=2.0):
+    return jerk_limited(0.0, distance, start, PHASES)
+
+
+def noisy(values, noise=NOISE):
+    return values + noise * np.random.default_rng(1).standard_normal(len(values))
+
+
+def ends(height=HEIGHT, landings=None, motion="auto", **columns):
+    return recover_ends("run.csv", pd.DataFrame(columns), height, MotionOptions(motion, landings or Landings()))
+
+
+def stopped(time, speed=9.0, start=2.0, stop=12.0, deceleration=15.0):
+    """A car that starts smoothly downwards and is stopped hard."""
+    ramp = np.clip((time - start) / 4.0, 0.0, 1.0)
+    fall = speed * (3.0 * ramp**2 - 2.0 * ramp**3)
+    falls = np.where(time < stop, fall, np.clip(speed - deceleration * (time - stop), 0.0, None))
+    return -np.concatenate(([0.0], np.cumsum(0.5 * (falls[1:] + falls[:-1]) * np.diff(time))))
+
+
+def test_a_trip_up_and_back_does_not_stand_still():
+    time = np.arange(0.0, 40.0, 0.02)
+    truth = trip(6.0).value(time) - trip(6.0, 20.0).value(time)
+    found = recover_trip(time, noisy(truth))
+    assert found.kind == "trips" and np.abs(found.position(time) - truth).max() < NOISE
+    rest = (time > 13.0) & (time < 19.0)
+    assert not found.velocity(time[rest]).any()
+
+
+def test_a_return_without_a_rest_is_followed_and_said():
+    time = np.arange(0.0, 30.0, 0.02)
+    truth = 3.0 * np.where((time > 5.0) & (time < 20.0), np.sin(np.pi * (time - 5.0) / 15.0) ** 4, 0.0)
+    found = recover_trip(time, noisy(truth))
+    assert np.abs(found.position(time) - truth).max() < NOISE
+    assert found.kind == "exact" and any("taken as it is" in one for one in found.remarks)
+
+
+@pytest.mark.parametrize("deceleration", [9.81, 15.0])
+def test_a_hard_stop_is_followed_within_the_rounding(deceleration):
+    fine = np.arange(0.0, 16.0, 1e-3)
+    truth = 150.0 + stopped(fine, deceleration=deceleration)
+    time, position = fine[::10], np.round(truth[::10], 4)
+    found = recover_trip(time, position)
+    assert np.abs(found.position(time) - position).max() <= 1e-4
+    inside = (time > 12.05) & (time < 12.5)
+    assert found.acceleration(time[inside]) == pytest.approx(deceleration, abs=0.5)
+
+
+def test_a_noisy_hard_stop_is_followed_within_the_noise():
+    fine = np.arange(0.0, 16.0, 1e-3)
+    truth = (150.0 + stopped(fine))[::10]
+    found = recover_trip(fine[::10], noisy(truth))
+    assert np.sqrt(np.mean((found.position(fine[::10]) - truth) ** 2)) < NOISE
+    assert np.abs(found.position(fine[::10]) - truth).max() < 4.0 * NOISE
+
+
+def test_a_mirrored_counterweight_mirrors_the_recovered_car_exactly():
+    time = np.arange(0.0, 16.0, 0.01)
+    car = np.round(150.0 + stopped(time), 4)
+    found = ends(200.0, time=time, car_position=car, counterweight_position=200.0 - car)
+    assert np.abs(found.car.position(time) + found.counterweight.position(time) - 200.0).max() < 1e-9
+
+
+def test_a_counterweight_that_jumps_is_recovered_beside_the_car():
+    time = np.arange(0.0, 16.0, 0.01)
+    car = np.round(150.0 + stopped(time), 4)
+    flight = np.clip(time - 12.0, 0.0, 1.0)
+    other = np.round(200.0 - car + 4.905 * flight * (1.0 - flight), 4)
+    found = ends(200.0, time=time, car_position=car, counterweight_position=other)
+    assert np.abs(found.counterweight.position(time) - other).max() <= 1e-4
+    assert any("does not mirror" in one for one in found.remarks)
+
+
+def test_held_samples_are_no_steps():
+    time = np.arange(0.0, 15.0, 0.04)
+    truth = trip(18.0).value(time)
+    held = noisy(truth)[5 * (np.arange(len(time)) // 5)]
+    found = recover_trip(time, held)
+    assert np.abs(found.position(time) - truth).max() < 2.0 * NOISE
+    assert any("holds its values for 0.2 s" in one for one in found.remarks)
+
+
+@pytest.mark.parametrize(("quantity", "order"), [("speed", 1), ("acceleration", 2)])
+def test_a_speed_or_an_acceleration_needs_one_height(quantity, order):
+    time = np.arange(0.0, 16.0, 0.02)
+    truth = trip(18.0)
+    signal = noisy(truth.derivative(time, order), 2e-3) + 0.01
+    with pytest.raises(InputError, match=rf"run.csv: car_{quantity}: .* gives no height: .* 0\.00 to 32\.00 m is accepted"):
+        ends(time=time, **{f"car_{quantity}": signal})
+    found = ends(time=time, landings=Landings(start=4.0), **{f"car_{quantity}": signal})
+    assert np.abs(found.car.position(time) - 4.0 - truth.value(time)).max() < 0.03
+    both = ends(time=time, landings=Landings(4.0, 22.0), **{f"car_{quantity}": signal})
+    assert float(both.car.position(16.0)) == pytest.approx(22.0, abs=1e-6)
+
+
+def test_a_zero_at_the_start_needs_a_height_and_downward_counting_both():
+    time = np.arange(0.0, 16.0, 0.02)
+    fallen = -trip(18.0).value(time)
+    with pytest.raises(InputError, match=r"outside the shaft of 0 to 50 m.* 18\.00 to 50\.00 m is accepted"):
+        ends(time=time, car_position=fallen)
+    found = ends(time=time, car_position=fallen, landings=Landings(start=40.0))
+    assert found.car.position([0.0, 16.0]) == pytest.approx([40.0, 22.0], abs=1e-3)
+    turned = ends(time=time, car_position=10.0 - fallen, landings=Landings(40.0, 22.0))
+    assert turned.car.position([0.0, 16.0]) == pytest.approx([40.0, 22.0], abs=1e-3)
+    with pytest.raises(InputError, match="the car travels 18 m, but 20 m are between"):
+        ends(time=time, car_position=fallen, landings=Landings(40.0, 20.0))
+
+
+def test_millimetres_taken_for_metres_are_refused():
+    time = np.arange(0.0, 16.0, 0.02)
+    with pytest.raises(InputError, match="its unit is probably mm"):
+        ends(time=time, car_position=1e3 * trip(18.0).value(time))
+
+
+def test_a_record_that_begins_under_way_is_preceded_by_a_run_up():
+    time = np.arange(6.0, 16.0, 0.02)
+    truth = trip(18.0)
+    found = ends(time=time, car_position=noisy(truth.value(time)))
+    assert np.abs(found.car.position(time) - truth.value(time)).max() < 2.0 * NOISE
+    assert found.car.rest_before < 5.0 and not found.car.velocity(found.car.rest_before)
+    assert found.car.velocity(6.0) == pytest.approx(float(truth.derivative(np.array(6.0), 1)), abs=0.02)
+    before = np.linspace(found.car.rest_before, 6.0, 2001)
+    assert np.abs(np.diff(found.car.velocity(before))).max() < 0.01
+    assert found.car.position(before) + found.counterweight.position(before) == pytest.approx(HEIGHT, abs=1e-9)
+    assert any("under way" in one for one in found.remarks)
+
+
+def test_a_record_that_ends_under_way_goes_on_at_its_speed():
+    time = np.arange(0.0, 8.0, 0.02)
+    truth = trip(18.0)
+    found = ends(time=time, car_position=noisy(truth.value(time))).car
+    assert np.isinf(found.rest_after)
+    assert found.velocity([7.98, 8.2]) == pytest.approx(float(truth.derivative(np.array(7.98), 1)), abs=0.05)
+
+
+def test_lateral_columns_act_and_idle_ones_are_named():
+    time = np.arange(0.0, 16.0, 0.02)
+    columns = {"car_lateral_displacement": np.full(len(time), 0.1), "car_speed": trip(18.0).derivative(time, 1)}
+    found = ends(time=time, car_position=trip(18.0).value(time), cw_lateral_mm=time, **columns)
+    assert found.lateral["car"].position(5.0) == pytest.approx(0.1, abs=1e-9) and "counterweight" not in found.lateral
+    for name in ("car_speed", "cw_lateral_mm"):
+        assert any(one.startswith(f"{name}: not used") for one in found.remarks)
+
+
+def test_a_single_failed_sample_of_a_clean_trip_is_left_out_with_a_remark():
+    time = np.arange(0.0, 16.0, 0.01)
+    position = np.round(trip(18.0).value(time), 4)
+    position[700] += 0.02
+    found = recover_trip(time, position)
+    assert found.kind.startswith("profile") and np.abs(found.position(7.0) - position[699:702:2].mean()) < 1e-3
+    assert any("20 mm" in one for one in found.remarks)
+
+
+def test_a_dense_signal_is_averaged_without_bending_it():
+    time = np.arange(0.0, 16.0, 1e-3)
+    found = recover_trip(time, trip(18.0).value(time))
+    assert np.abs(found.position(time) - trip(18.0).value(time)).max() < 5e-6
