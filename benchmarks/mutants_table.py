@@ -245,8 +245,8 @@ MUTANTS = [
     ),
     *mutants(
         "units", f"{MEASUREMENTS}/end_motions.py",
-        ("counterweight_unmirrored", "replace(trip.mirrored(height), remarks=())", "replace(trip, remarks=())", UNITS),
-        ("counterweight_s_column_ignored", "trip.mirrored(level + shift)", "trip.mirrored(height)", UNITS),
+        ("counterweight_unmirrored", "replace(car.mirrored(height), remarks=())", "replace(car, remarks=())", UNITS),
+        ("counterweight_s_column_ignored", "car.mirrored(level)", "car.mirrored(height)", UNITS),
     ),
     *mutants(
         "units", f"{MEASUREMENTS}/trip.py",

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from comprope_system.identification.data.campaign import Channel
+from comprope_system.measurements.anchoring import Landings
+from comprope_system.measurements.end_motions import EndSignals, recover_ends
 from comprope_system.measurements.motion_column import MotionSignal
-from comprope_system.measurements.run_table import UNITS, read_trips
+from comprope_system.measurements.run_table import UNITS
 
 # What one unit is in SI units: a turn is 2 pi rad, a degree the 360th part of it, a minute 60 s.
 SIZES = {
@@ -35,8 +37,11 @@ def test_every_quantity_has_units_of_its_own_kind() -> None:
 def test_the_counterweight_mirrors_the_car_in_the_shaft_or_follows_its_own_column() -> None:
     time = [0.02 * k for k in range(100)]
     signal = MotionSignal(np.array(time), np.full(100, 3.0), "position", "car_position")
-    car, counterweight = read_trips(signal, None, 14.0, "run.csv")
-    assert (float(car.position(1.0)), float(counterweight.position(1.0))) == pytest.approx((3.0, 11.0), abs=1e-9)
-    assert not counterweight.velocity(1.0)
-    _, own = read_trips(signal, replace(signal, value=np.full(100, 10.5)), 14.0, "run.csv")
-    assert float(own.position(1.0)) == pytest.approx(10.5, abs=1e-9)
+    ends = recover_ends(EndSignals(signal, None, {}), 14.0, "auto", Landings(), "run.csv")
+    assert (float(ends.car.position(1.0)), float(ends.counterweight.position(1.0))) == pytest.approx((3.0, 11.0), abs=1e-9)
+    assert not ends.counterweight.velocity(1.0)
+    other = replace(signal, value=np.full(100, 10.5), column="counterweight_position")
+    own = recover_ends(EndSignals(signal, other, {}), 14.0, "auto", Landings(), "run.csv")
+    assert float(own.counterweight.position(1.0)) == pytest.approx(10.5, abs=1e-9)
+    (remark,) = own.remarks
+    assert remark.startswith("counterweight_position: with the car's height it adds up to 13.5 m")

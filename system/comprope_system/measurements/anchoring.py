@@ -1,4 +1,4 @@
-"""Heights above the bottom landing from positions of an unknown zero and sign: found in the shaft, or as asked for."""
+"""Heights above the bottom landing from positions of an unknown zero: found in the shaft, or as asked for."""
 
 from dataclasses import dataclass
 
@@ -56,10 +56,9 @@ def anchored(record: Record, landings: Landings, height: float) -> Trip:
 def _unknown(record: Record, first: float, height: float) -> str:
     span = record.highest - record.lowest
     if span > height + 2.0 * OVERTRAVEL:
-        hint = "; its unit is probably mm" if span > 100.0 * height else ""
-        return f"the car travels {span:.6g} m, more than the shaft's height of {height:g} m{hint}"
+        return f"the car travels {span:.6g} m, more than the shaft's height of {height:g} m"
     least, most = first - record.lowest, height - (record.highest - first)
-    accepted = f"give the height of the car at the start of the record, {least:.2f} to {max(most, least):.2f} m is accepted"
+    accepted = f"write car_start = ... in the run, {least:.2f} to {max(most, least):.2f} m is accepted"
     if record.integrated:
         return f"a speed or an acceleration gives no height: {accepted}"
     reached = f"heights from {record.lowest:.4g} to {record.highest:.4g} m"
@@ -67,26 +66,20 @@ def _unknown(record: Record, first: float, height: float) -> str:
 
 
 def _between(record: Record, found: tuple[float, float], given: tuple[float, float], height: float) -> Trip:
-    """The motion between two given landings: shifted, turned round if it counts downwards, an integrated one stretched."""
+    """The motion between two given landings: shifted, an integrated one stretched."""
     way, wanted = found[1] - found[0], given[1] - given[0]
-    if not record.integrated and abs(abs(way) - abs(wanted)) > MISMATCH:
-        raise InputError(
-            f"the car travels {abs(way):.4g} m, but {abs(wanted):.4g} m are between the given heights at start and end"
-        )
-    if abs(wanted) <= MISMATCH:
+    if not record.integrated and abs(way - wanted) > MISMATCH:
+        raise InputError(f"the car travels {way:.4g} m, but {wanted:.4g} m are between the given heights at start and end")
+    if not record.integrated or abs(wanted) <= MISMATCH:
         return _shifted(record, given[0] - found[0], height, f"{given[0]:g} m at the start, as given")
     factor = wanted / way if way else 0.0
-    if record.integrated and abs(abs(factor) - 1.0) > LARGEST_DRIFT:
-        raise InputError(f"the integrated signal travels {abs(way):.4g} m, but {abs(wanted):.4g} m are between the given heights")
-    scale = factor if record.integrated else (1.0 if factor > 0.0 else -1.0)
-    remarks = []
-    if scale < 0.0:
-        remarks.append("counts downwards, as the given heights at start and end show; its sign is changed")
-    if record.integrated:
-        remarks.append(f"integrated, then stretched by a factor of {abs(scale):.5g} to end at the given height")
-    low, high = sorted((given[0] + scale * (record.lowest - found[0]), given[0] + scale * (record.highest - found[0])))
-    moved = record.trip.scaled(scale, given[0] - scale * found[0])
-    return _with_remarks(moved, [*remarks, *_inside(low, high, height)])
+    if abs(factor - 1.0) > LARGEST_DRIFT:
+        raise InputError(f"the integrated signal travels {way:.4g} m, but {wanted:.4g} m are between the given heights")
+    low, high = (given[0] + factor * (one - found[0]) for one in (record.lowest, record.highest))
+    moved = record.trip.scaled(factor, given[0] - factor * found[0])
+    return _with_remarks(
+        moved, [f"stretched by a factor of {factor:.5g} to end at the given height", *_inside(low, high, height)]
+    )
 
 
 def _shifted(record: Record, shift: float, height: float, why: str) -> Trip:

@@ -11,6 +11,7 @@ from comprope.rope.model_file import read_toml
 from comprope.validation_messages import validation_problems
 
 from .files.file_format import FileFormat
+from .recover import Motion
 from .units import UNITS
 
 Quantity = Literal[
@@ -75,8 +76,12 @@ class RunSpec(Component):
     )
     offsets: dict[str, float] = Field(default_factory=dict, description="seconds to add to the times of another file, by file")
     car_start: float | None = Field(
-        default=None, description="height of the car at the start [m], where its column counts from there"
+        default=None, description="height of the car at the start [m], where its column counts from there, or is a speed"
     )
+    car_end: float | None = Field(
+        default=None, description="the same at the end; with car_start, it removes the drift of an integrated signal"
+    )
+    motion: Motion | None = Field(default=None, description="of this run alone; default that of the campaign")
 
 
 class CampaignFile(Component):
@@ -87,6 +92,9 @@ class CampaignFile(Component):
     file: FileFormat = Field(default_factory=FileFormat, description="how the run files are written")
     car: MotionColumn = Field(default_factory=MotionColumn, description="the column of the car's motion")
     counterweight: MotionColumn = Field(default_factory=MotionColumn, description="the same of the counterweight")
+    motion: Motion = Field(
+        default="auto", description='"exact": motions are taken as they are; "auto": where they are no smooth trips'
+    )
     channels: tuple[Channel, ...] = Field(description="the channels, at least one")
     runs: tuple[RunSpec, ...] = Field(description="the runs, at least one")
 

@@ -1,6 +1,6 @@
 """The measured motion of the car, or of the counterweight, in SI units."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,8 +35,14 @@ class MotionSignal:
     remarks: tuple[str, ...] = ()
 
 
+def mirrored(signal: MotionSignal, height: float) -> MotionSignal:
+    """The motion of the car that mirrors the counterweight's in a shaft of this height [m], or the reverse."""
+    level = height if signal.quantity == "position" else 0.0
+    return replace(signal, value=level - signal.value)
+
+
 def read_motion(files: RunFiles, stated: MotionColumn, key: str, height: float, start: float | None) -> MotionSignal | None:
-    """The motion of "car" or "counterweight" in a shaft of this height [m]; None if there is no column of the counterweight's.
+    """The motion of "car" or "counterweight" in a shaft of this height [m]; None if there is none, but a column of the other one.
 
     `start` [m] is the position at the beginning where the column counts from there. Raises `InputError`, which names the file, if
     the position does not lie in the shaft, or the speed is no car's in whatever unit.
@@ -62,9 +68,11 @@ def _column(files: RunFiles, table: RawTable, stated: MotionColumn, key: str) ->
         column = find_column(table, name)
         return column, stated.quantity or _quantity(column)
     if key == "counterweight":
-        return car_column(table, {"position": COUNTERWEIGHT_NAMES})
+        return car_column(table, COUNTERWEIGHT_NAMES)
     found = car_column(table)
     if found is None:
+        if files.spec.columns.get("counterweight") or car_column(table, COUNTERWEIGHT_NAMES):
+            return None
         names = printable(", ".join(one.name for one in table.columns), 300)
         raise InputError(f'no column car_position; the header has {names}: write column = "..." under [car]')
     return found[0], stated.quantity or found[1]

@@ -15,22 +15,22 @@ from .campaign_file import CampaignFile, Channel, RunSpec
 from .columns.column_names import find_column
 from .columns.readings import is_constant
 from .files.file_format import FileFormat
-from .motion_column import MotionSignal, read_motion
-from .recover import recover_trip
+from .motion_column import MotionSignal, mirrored, read_motion
+from .motion_columns import idle_columns, read_lateral
 from .run_files import RunFiles
-from .trip import Trip
 from .units import UNITS
 
 Floats = NDArray[np.float64]
 T = TypeVar("T")
-__all__ = ["UNITS", "RunTable", "present_channels", "read_run_table", "read_trips"]
+__all__ = ["UNITS", "RunTable", "present_channels", "read_run_table"]
 
 
 @dataclass(frozen=True)
 class RunTable:
     """One run: `values[column]` (n,) [SI] at `time` (n,) [s] from zero, NaN where there is no sample.
 
-    `car` and `counterweight` have times of their own; `remarks` are sentences about the data. `sampled[column]` (n,) are
+    `car`, `counterweight` and `lateral` (outward displacements of the rope's ends, by end) have times of their own; without a
+    column of the car, `car` is the counterweight's mirrored. `remarks` are sentences about the data. `sampled[column]` (n,) are
     the times at which a channel has a row at all, for channels with a clock of their own.
     """
 
@@ -40,14 +40,7 @@ class RunTable:
     values: dict[str, Floats]
     remarks: tuple[str, ...] = ()
     sampled: dict[str, NDArray[np.bool_]] = field(default_factory=dict)
-
-    @property
-    def car_position(self) -> Floats:
-        """Readings of the car (n,) [SI] at `time`, between its own samples by interpolation."""
-        if np.array_equal(self.car.time, self.time):
-            return self.car.value
-        known = np.isfinite(self.car.value)
-        return np.interp(self.time, self.car.time[known], self.car.value[known])
+    lateral: dict[str, MotionSignal] = field(default_factory=dict)
 
 
 def read_run_table(folder: Path, spec: RunSpec, described: CampaignFile, height: float, within: Path | None) -> RunTable:
@@ -66,13 +59,31 @@ def read_run_table(folder: Path, spec: RunSpec, described: CampaignFile, height:
             own = _collect(problems, partial(_channel, files, channel, k, remarks))
             if own is not None:
                 read[channel.column] = own
-    if problems or car is None:
+    lateral = _collect(problems, lambda: read_lateral(files, described))
+    if problems or lateral is None:
         raise InputError("\n".join(dict.fromkeys(problems)))
-    car, counterweight, read = _from_zero(car, counterweight, read)
-    time, values, sampled = _on_one_axis(car, read)
-    signals = [one for one in (car, counterweight) if one is not None]
-    said = [*files.remarks, *(remark for one in signals for remark in one.remarks), *remarks]
-    return RunTable(time, car, counterweight, values, tuple(dict.fromkeys(said)), sampled)
+    car, counterweight = _acting(car, counterweight, height)
+    signals = {"car": car, **lateral} | ({} if counterweight is None else {"counterweight": counterweight})
+    said = [*files.remarks, *(remark for one in signals.values() for remark in one.remarks), *remarks]
+    said += idle_columns(files, described, [one.column for one in signals.values()])
+    return _from_zero(RunTable(car.time, car, counterweight, {}, tuple(dict.fromkeys(said)), {}, lateral), read)
+
+
+def _acting(
+    car: MotionSignal | None, counterweight: MotionSignal | None, height: float
+) -> tuple[MotionSignal, MotionSignal | None]:
+    """The signals that determine the motion: a height before what is integrated to one, the car's before the counterweight's."""
+    if counterweight is None or (car is not None and counterweight.quantity != "position"):
+        return _present(car), None
+    if car is None or car.quantity != "position":
+        return mirrored(counterweight, height), None
+    return car, counterweight
+
+
+def _present(car: MotionSignal | None) -> MotionSignal:
+    if car is None:
+        raise InputError("no column of the car's motion, nor of the counterweight's")
+    return car
 
 
 def present_channels(folder: Path, spec: RunSpec, stated: FileFormat, channels: Sequence[Channel]) -> tuple[Channel, ...]:
@@ -113,16 +124,23 @@ def _channel(files: RunFiles, channel: Channel, number: int, remarks: list[str])
     return found.time, values
 
 
-def _from_zero(
-    car: MotionSignal, counterweight: MotionSignal | None, read: dict[str, tuple[Floats, Floats]]
-) -> tuple[MotionSignal, MotionSignal | None, dict[str, tuple[Floats, Floats]]]:
-    """The same with times from the first sample of all."""
-    first = float(min([car.time[0], *(time[0] for time, _ in read.values())]))
-    if first == 0.0:
-        return car, counterweight, read
-    moved = {column: (time - first, values) for column, (time, values) in read.items()}
-    other = counterweight and replace(counterweight, time=counterweight.time - first)
-    return replace(car, time=car.time - first), other, moved
+def _from_zero(table: RunTable, read: dict[str, tuple[Floats, Floats]]) -> RunTable:
+    """The table with the channels, given by their times and values, and with times from the first sample of all."""
+    first = float(min([table.car.time[0], *(time[0] for time, _ in read.values())]))
+    if first != 0.0:
+        read = {column: (time - first, values) for column, (time, values) in read.items()}
+        table = replace(
+            table,
+            car=_earlier(table.car, first),
+            counterweight=table.counterweight and _earlier(table.counterweight, first),
+            lateral={end: _earlier(one, first) for end, one in table.lateral.items()},
+        )
+    time, values, sampled = _on_one_axis(table.car, read)
+    return replace(table, time=time, values=values, sampled=sampled)
+
+
+def _earlier(signal: MotionSignal, seconds: float) -> MotionSignal:
+    return replace(signal, time=signal.time - seconds)
 
 
 def _on_one_axis(
@@ -143,15 +161,3 @@ def _on_one_axis(
         sampled[column] = np.zeros(len(union), bool)
         sampled[column][at] = True
     return union, values, sampled
-
-
-def read_trips(car: MotionSignal, counterweight: MotionSignal | None, height: float, file: str) -> tuple[Trip, Trip]:
-    """The smooth trips of car and counterweight estimated from their signals, for a shaft height [m].
-
-    Raises `InputError`, which names the `file`, for a motion that cannot be recovered.
-    """
-    try:
-        trip = recover_trip(car.time, car.value)
-        return trip, trip.mirrored(height) if counterweight is None else recover_trip(counterweight.time, counterweight.value)
-    except InputError as error:
-        raise InputError(f"{file}: {error}") from None

@@ -12,10 +12,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from comprope.errors import InputError
+
+from ..cosim.master import Coupling
 from ..measurements import Trip
+from ..measurements.anchoring import Landings
 from ..measurements.campaign_file import CampaignFile, RunSpec, read_campaign_file
 from ..measurements.campaign_file import Channel as MeasuredChannel
-from ..measurements.run_table import present_channels, read_run_table, read_trips
+from ..measurements.end_motions import EndSignals, recover_ends
+from ..measurements.recover import Motion
+from ..measurements.run_table import present_channels, read_run_table
+from .trip_simulation import Timing
 
 Floats = NDArray[np.float64]
 
@@ -31,27 +38,61 @@ class Channel:
 
 @dataclass(frozen=True)
 class Run:
-    """A measured run: trips of "car" and "counterweight", channels by sensor, changes of the model, last time [s]."""
+    """A measured run.
+
+    Trips of "car" and "counterweight", outward displacements [m] of the rope's ends by the same names where measured, channels by
+    sensor, changes of the model, first and last time [s], and remarks about the file and the recovered motion.
+    """
 
     trips: dict[str, Trip]
+    lateral: dict[str, Trip]
     channels: dict[str, Channel]
     changes: dict[str, Any]
+    begin: float
     end: float
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def simulation_start(self) -> float:
+        """The time [s] from which on the rope is simulated: that of a run-up, where the record begins under way."""
+        return min(self.begin, *(trip.rest_before for trip in self.trips.values()))
 
 
-def read_run(path: Path, height: float, sensors: Sequence[str]) -> Run:
+@dataclass(frozen=True)
+class MotionWishes:
+    """How the motion is recovered, and heights of the car [m] at the start and end of the record; None as in the campaign."""
+
+    motion: Motion | None = None
+    start: float | None = None
+    end: float | None = None
+
+
+def read_run(path: Path, height: float, sensors: Sequence[str], wishes: MotionWishes | None = None) -> Run:
     """The run of a file, in a shaft of this height [m]; raises `InputError` for a file without the car's motion."""
     described = path.parent / "campaign.toml"
     campaign = read_campaign_file(described) if described.is_file() else _undescribed(path.name, sensors)
     spec = next((one for one in campaign.runs if one.file == path.name), RunSpec(file=path.name))
+    wishes = wishes or MotionWishes()
+    asked = {"motion": wishes.motion, "car_start": wishes.start, "car_end": wishes.end}
+    spec = spec.model_copy(update={key: value for key, value in asked.items() if value is not None})
     wanted = [one for one in campaign.channels if one.quantity == "lateral_displacement" and one.sensor in sensors]
     campaign = campaign.model_copy(update={"channels": present_channels(path.parent, spec, campaign.file, wanted)})
     table = read_run_table(path.parent, spec, campaign, height, None)
-    car, counterweight = read_trips(table.car, table.counterweight, height, str(path))
+    signals = EndSignals(table.car, table.counterweight, table.lateral)
+    ends = recover_ends(signals, height, spec.motion or campaign.motion, Landings(spec.car_start, spec.car_end), str(path))
     channels = {
         str(one.sensor): Channel(table.time, table.values[one.column], one.reference == "rest") for one in campaign.channels
     }
-    return Run({"car": car, "counterweight": counterweight}, channels, dict(spec.set), float(table.time[-1]))
+    trips, begin, end = {"car": ends.car, "counterweight": ends.counterweight}, float(table.time[0]), float(table.time[-1])
+    return Run(trips, ends.lateral, channels, dict(spec.set), begin, end, (*table.remarks, *ends.remarks))
+
+
+def measured_timing(run: Run, duration: float | None, step: float, coupling: Coupling) -> Timing:
+    """Simulated time of a run, by default all of it; raises `InputError` for more than a record that ends under way."""
+    recorded = run.end - run.begin
+    if duration is not None and duration > recorded and any(np.isinf(trip.rest_after) for trip in run.trips.values()):
+        raise InputError(f"duration = {duration:g} s: the record ends under way after {recorded:g} s, which is the most accepted")
+    return Timing(recorded if duration is None else duration, step, coupling, run.begin, run.begin - run.simulation_start)
 
 
 def _undescribed(file: str, sensors: Sequence[str]) -> CampaignFile:

@@ -13,6 +13,7 @@ from ..report.plot_style import plain
 from .measured_run import Channel, Run
 from .trip_simulation import Simulated
 
+REST = 0.2  # s at the start of a record that count as rest, where the car moves from the first sample on
 SIMULATED, MEASURED, SECOND = "#0b4f8a", "#e8893b", "#7a8794"
 
 
@@ -75,7 +76,7 @@ def alongside(channel: Channel, measured: Run, simulated: Simulated, name: str) 
     """The measured channel [mm]; if relative to rest, shifted to the simulated value at rest."""
     shift = 0.0
     if channel.from_rest:
-        still = channel.time <= measured.trips["car"].rest_before
+        still = channel.time <= max(measured.trips["car"].rest_before, measured.begin + REST)
         seen = channel.value[still & np.isfinite(channel.value)]
         shift = float(simulated.table[name].iloc[0]) - float(np.mean(seen)) if len(seen) else 0.0
     shown = channel.time <= simulated.table["time"].iloc[-1]

@@ -18,15 +18,13 @@ from comprope.rope.simulator.rope import CompensationRope
 from ..cosim.fmu_cache import NamedFmus
 from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.master import Coupling
-from ..measurements.anchoring import Landings
-from ..measurements.end_motions import MotionOptions
 from ..parallel.progress import Progress, no_progress
 from ..presets import model_path
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
 from ..presets.overrides import Changes, by_key
 from .animation.frames import FrameRecorder
 from .elevator import OWN_FMUS, Elevator, driven_elevator, prescribed_elevator
-from .measured_run import Run, measured_timing, read_run
+from .measured_run import MotionWishes, Run, measured_timing, read_run
 from .result import SimulationResult
 from .trip_simulation import Timing
 from .trip_simulation import simulate as simulate_trip
@@ -103,9 +101,8 @@ def _measured(motion: CarMotion, model: RopeModel, sensors: Sequence[str]) -> Ru
     unused = [name for name in ("speed", "acceleration", "jerk", "drive") if getattr(motion, name) is not None]
     if unused:
         raise InputError(f"{', '.join(unused)}: not accepted with a measured motion, which has no drive")
-    asked = motion.exact or motion.start is not None or motion.end is not None
-    options = MotionOptions("exact" if motion.exact else "auto", Landings(motion.start, motion.end)) if asked else None
-    return read_run(Path(str(motion.measured)), model.shaft.height, sensors, options)
+    wishes = MotionWishes("exact" if motion.exact else None, motion.start, motion.end)
+    return read_run(Path(str(motion.measured)), model.shaft.height, sensors, wishes)
 
 
 def _advance(progress: Progress, recorder: FrameRecorder | None, before: int, count: int, total: int) -> None:

@@ -16,8 +16,10 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
 
 from ...measurements import Trip
+from ...measurements.anchoring import Landings
 from ...measurements.campaign_file import CampaignFile, Channel, RunSpec, read_campaign_file
-from ...measurements.run_table import read_run_table, read_trips
+from ...measurements.end_motions import EndMotions, EndSignals, recover_ends
+from ...measurements.run_table import RunTable, read_run_table
 from ...measurements.units import UNITS
 from ..settings import TRIP_PHASES
 
@@ -28,7 +30,7 @@ class Run:
 
     `changes` are the parameters that differ from the model file; `trip` and `counterweight` are smooth trajectories fitted to
     the measured positions; `notes` are messages about the data. `sampled[column]` (n,) are the times at which a channel with a
-    clock of its own has a sample.
+    clock of its own has a sample; `lateral` are outward displacements [m] of the rope ends "car" and "counterweight".
     """
 
     file: str
@@ -41,6 +43,7 @@ class Run:
     values: dict[str, Floats]
     notes: tuple[str, ...] = ()
     sampled: dict[str, NDArray[np.bool_]] = field(default_factory=dict)
+    lateral: dict[str, Trip] = field(default_factory=dict)
 
     @property
     def rest(self) -> NDArray[np.bool_]:
@@ -114,16 +117,22 @@ def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel | 
     height = (changed or model).shaft.height if model else float("inf")
     within = None if consent.outside_given() else path.parent
     table = _collect(found, lambda: read_run_table(path.parent, spec, described, height, within))
-    trips = _collect(found, lambda: read_trips(table.car, table.counterweight, height, str(file))) if table and model else None
-    if found or trips is None or table is None:
+    ends = _collect(found, lambda: _ends(table, spec, described, height, file)) if table and model else None
+    if found or ends is None or table is None:
         raise InputError("\n".join(found))
-    trip, counterweight = trips
-    notes = tuple(f"{spec.file}: {one}" for one in table.remarks)
+    notes = tuple(f"{spec.file}: {one}" for one in (*table.remarks, *ends.remarks))
+    position = ends.car.position(table.time)
     run = Run(
-        spec.file, spec.role, dict(spec.set), table.time, table.car_position, trip, counterweight, table.values, notes,
-        table.sampled,
+        spec.file, spec.role, dict(spec.set), table.time, position, ends.car, ends.counterweight, table.values, notes,
+        table.sampled, ends.lateral,
     )  # fmt: skip
     return _without_unseen_rest(run, described)
+
+
+def _ends(table: RunTable, spec: RunSpec, described: CampaignFile, height: float, file: Path) -> EndMotions:
+    """The motions of the rope's ends in a run."""
+    signals = EndSignals(table.car, table.counterweight, table.lateral)
+    return recover_ends(signals, height, spec.motion or described.motion, Landings(spec.car_start, spec.car_end), str(file))
 
 
 def _without_unseen_rest(run: Run, described: CampaignFile) -> Run:

@@ -27,9 +27,11 @@ CAR_NAMES = {
     "speed": "car_speed car_velocity car_v v_car cabin_speed cabin_velocity carspeed carvelocity fahrkorbgeschwindigkeit car_vel",
     "acceleration": "car_acceleration car_accel car_acc a_car car_a cabin_acceleration caracceleration fahrkorbbeschleunigung",
 }
-COUNTERWEIGHT_NAMES = (
-    "counterweight_position counterweight_pos cw_position cwt_position counterweight_height gegengewicht_position"
-)
+COUNTERWEIGHT_NAMES = {
+    "position": "counterweight_position counterweight_pos cw_position cwt_position counterweight_height gegengewicht_position",
+    "speed": "counterweight_speed counterweight_velocity cw_speed cw_velocity cwt_speed gegengewichtgeschwindigkeit",
+    "acceleration": "counterweight_acceleration cw_acceleration cwt_acceleration gegengewichtbeschleunigung",
+}
 
 
 def plain_name(name: str) -> str:
