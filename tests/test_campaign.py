@@ -114,7 +114,7 @@ def test_what_campaign_toml_may_not_say(folder, text, wanted):
     ("columns", "wanted"),
     [
         ({"time": np.zeros(round(END / SAMPLING))}, "must be later than the row before"),
-        ({"car_position": np.linspace(2.0, 9.0, round(END / SAMPLING)) * 1e3}, "its unit is probably mm"),
+        ({"car_position": np.linspace(2.0, 9.0, round(END / SAMPLING)).round()}, "position: changes in steps of 1 m"),
         ({"car_position": np.full(round(END / SAMPLING), np.nan)}, "at least 20 are needed"),
     ],
 )
