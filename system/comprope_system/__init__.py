@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .fmu_export.workflow import fmu
-    from .identification.workflow import add, compare, diagnose, improve
+    from .identification.workflow import add, check, compare, diagnose, improve
     from .modal.workflow import modes
     from .sheave_design.workflow import BuildingSway, DesignOptions, design
     from .simulation.workflow import CarMotion, simulate
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BuildingSway", "CarMotion", "DesignOptions", "TuningOptions",
-    "add", "compare", "design", "diagnose", "fmu", "improve", "modes", "simulate", "tune",
+    "add", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "simulate", "tune",
 ]  # fmt: skip
 _MODULES = {
     "fmu_export": ("fmu",),
-    "identification": ("add", "compare", "diagnose", "improve"),
+    "identification": ("add", "check", "compare", "diagnose", "improve"),
     "modal": ("modes",),
     "sheave_design": ("BuildingSway", "DesignOptions", "design"),
     "simulation": ("CarMotion", "simulate"),

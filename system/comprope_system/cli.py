@@ -43,7 +43,7 @@ def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False, allow_outsi
 
 PANELS = {  # of the help text, with commands in the order in which they are typically used
     "Simulate": ("simulate", "modes"),
-    "Compare with measurements": ("compare", "diagnose", "add", "improve"),
+    "Compare with measurements": ("check", "compare", "diagnose", "add", "improve"),
     "Other tools": ("fmu",),
     "Design and tuning": ("tune", "design"),
     "Verification": ("verify", "study"),

@@ -1,4 +1,4 @@
-"""The public functions `comprope_system.compare`, `diagnose`, `add` and `improve`."""
+"""The public functions `comprope_system.check`, `compare`, `diagnose`, `add` and `improve`."""
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
@@ -9,6 +9,7 @@ from ..parallel.progress import Progress, no_progress
 from .comparison.compare import compare as compare_with_model
 from .comparison.data_quality import remarks
 from .data.campaign import Campaign, load_campaign
+from .data.campaign_check import check_campaign
 from .diagnosis.diagnose import diagnose as rank_effects
 from .diagnosis.experiment_design import is_inconclusive, rank_candidate_runs
 from .diagnosis.held_out_validation import validate
@@ -20,12 +21,22 @@ from .progress import ProgressCallback
 from .residuals.input_estimation import estimate_residual_force
 from .residuals.residual_correlation import residual_correlations
 from .residuals.residual_series import rest_ratio_of
+from .result.check import CheckResult
 from .result.comparison import ComparisonResult
 from .result.diagnosis import DiagnosisResult
 from .result.updating import AddResult, ImproveResult
 from .settings import MODEL_UPDATING
 
 CampaignInput = str | Path | Campaign
+
+
+def check(campaign: str | Path) -> CheckResult:
+    """Read all files of a campaign and check them, without a simulation.
+
+    `campaign` is a folder with campaign.toml, or that file. Problems of its files are in the result; raises `InputError` only if
+    campaign.toml is missing or cannot be understood.
+    """
+    return CheckResult(check_campaign(campaign))
 
 
 def compare(

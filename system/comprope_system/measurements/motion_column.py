@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from comprope.errors import InputError
 
 from .campaign_file import MotionColumn
-from .columns.car_units import SPEEDS, fits_shaft, length_unit, middle_speed, time_unit
+from .columns.car_units import SPEEDS, fastest, fits_shaft, length_unit, middle_speed, time_unit
 from .columns.column_names import COUNTERWEIGHT_NAMES, car_column, find_column
 from .columns.readings import written_unit
 from .columns.signal_faults import MOTION_RULES
@@ -54,10 +54,7 @@ def read_motion(files: RunFiles, stated: MotionColumn, key: str, height: float, 
         if found is None:
             return None
         column, quantity = found
-        signal = _signal(files, table, file, column, quantity, stated, key, height, start)
-        if quantity == "position":
-            _require_in_shaft(signal, height, key, start)
-        return signal
+        return _signal(files, file, column, quantity, stated, key, height, start)
     except InputError as error:
         raise files.named(file, error) from None
 
@@ -86,7 +83,7 @@ def _quantity(column: RawColumn) -> str:
 
 
 def _signal(
-    files: RunFiles, table: RawTable, file: str, column: RawColumn, quantity: str, stated: MotionColumn, key: str,
+    files: RunFiles, file: str, column: RawColumn, quantity: str, stated: MotionColumn, key: str,
     height: float, start: float | None,
 ) -> MotionSignal:  # fmt: skip
     units = MOTIONS[quantity]
@@ -99,6 +96,8 @@ def _signal(
     if start is not None and quantity == "position":
         first = samples.time <= samples.time[0] + START
         value = value - np.nanmedian(value[first]) + start
+    if quantity == "position":
+        _require_in_shaft(value, column.name, height, key, start)
     time = samples.time if samples.sure else _checked_time(files, samples, value, quantity, height)
     return MotionSignal(time, value, quantity, column.name, (*samples.remarks, *remarks))
 
@@ -142,7 +141,7 @@ def _checked_time(files: RunFiles, samples: Samples, value: Floats, quantity: st
             raise InputError(f"time: samples are {step:g} s apart: in which unit is it? Write time_unit under [file]")
         return samples.time
     speed, travel = found
-    if SPEEDS[0] <= speed <= SPEEDS[1]:
+    if SPEEDS[0] <= speed <= fastest(travel):
         return samples.time
     unit = time_unit(speed, travel)
     if unit is not None:
@@ -151,7 +150,8 @@ def _checked_time(files: RunFiles, samples: Samples, value: Floats, quantity: st
     if speed < SPEEDS[0] and step < SLOWEST_SAMPLING:
         return samples.time
     raise InputError(
-        f"the car would move at {speed:.3g} m/s; {SPEEDS[0]:g} to {SPEEDS[1]:g} m/s is accepted: check the unit of the car, and "
+        f"the car would move at {speed:.3g} m/s; {SPEEDS[0]:g} to {fastest(travel):.3g} m/s is accepted over {travel:.3g} m: "
+        "check the unit of the car, and "
         "write time_unit under [file], or, if time counts samples, their rate"
     )
 
@@ -166,13 +166,13 @@ def _speed_of(samples: Samples, value: Floats, quantity: str, height: float) -> 
     return (top, travel) if travel <= height + 1.0 else (top * height / travel, height)
 
 
-def _require_in_shaft(signal: MotionSignal, height: float, key: str, start: float | None) -> None:
-    if fits_shaft(signal.value, height):
+def _require_in_shaft(value: Floats, name: str, height: float, key: str, start: float | None) -> None:
+    if fits_shaft(value, height):
         return
-    low, high = np.nanpercentile(signal.value, (1.0, 99.0))
-    reach = f"{signal.column} lies from {low:.5g} to {high:.5g} m, outside of the shaft (0 to {height:g} m)"
+    low, high = np.nanpercentile(value, (1.0, 99.0))
+    reach = f"{name} lies from {low:.5g} to {high:.5g} m, outside of the shaft (0 to {height:g} m)"
     if start is None and high - low <= height + 1.0:
-        first = float(np.nanmedian(signal.value[: max(len(signal.value) // 100, 1)]))
+        first = float(np.nanmedian(value[: max(len(value) // 100, 1)]))
         advice = (
             f"write zero = ... (its reading at the bottom landing) and sign = -1 if it counts downward under [{key}], "
             f"or, if it counts from {first:.3g} m at the start of each run, car_start = ... in the run"

@@ -22,6 +22,7 @@ from ...measurements.end_motions import EndMotions, EndSignals, recover_ends
 from ...measurements.run_table import RunTable, read_run_table
 from ...measurements.units import UNITS
 from ..settings import TRIP_PHASES
+from .car_direction import mirrored_car
 
 Floats = NDArray[np.float64]
 @dataclass(frozen=True)
@@ -70,13 +71,12 @@ class Campaign:
 
 def load_campaign(folder: str | Path) -> Campaign:
     """Campaign in a folder, or described by a file; raises `InputError` with one line for each problem of its files."""
-    path = Path(folder)
-    path = path / "campaign.toml" if path.is_dir() or not path.suffix else path
+    path = campaign_path(folder)
     described = read_campaign_file(path)
     found: list[str] = []
     model = _collect(found, lambda: load(path.parent / described.model))
-    found += _channel_problems(path, described, model)
-    runs = [_collect(found, lambda one=one: _run(path, one, described, model)) for one in described.runs]
+    found += channel_problems(path, described, model)
+    runs = [_collect(found, lambda one=one: read_run(path, one, described, model)) for one in described.runs]
     if not any(one.role == "fit" for one in described.runs):
         found.append(f'{path}: runs: at least one with role = "fit" is needed')
     if found or model is None:
@@ -84,6 +84,12 @@ def load_campaign(folder: str | Path) -> Campaign:
     channels = {one.column: one for one in described.channels}
     complete = tuple(run for run in runs if run is not None)
     return Campaign(described.name, path.parent, model, path.parent / described.model, channels, complete)
+
+
+def campaign_path(folder: str | Path) -> Path:
+    """The campaign.toml of a folder, or the file itself."""
+    path = Path(folder)
+    return path / "campaign.toml" if path.is_dir() or not path.suffix else path
 
 
 def _collect(problems_found: list[str], make: Any) -> Any:
@@ -95,7 +101,8 @@ def _collect(problems_found: list[str], make: Any) -> Any:
         return None
 
 
-def _channel_problems(path: Path, described: CampaignFile, model: RopeModel | None) -> list[str]:
+def channel_problems(path: Path, described: CampaignFile, model: RopeModel | None) -> list[str]:
+    """Sentences about channels that are described twice, or with a unit or sensor that there is not."""
     found, names = [], [one.column for one in described.channels]
     found += [f"{path}: channels: column {name} is described twice" for name in sorted({n for n in names if names.count(n) > 1})]
     sensors = [sensor.name for sensor in model.sensors] if model else []
@@ -110,7 +117,8 @@ def _channel_problems(path: Path, described: CampaignFile, model: RopeModel | No
     return found
 
 
-def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel | None) -> Run:
+def read_run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel | None) -> Run:
+    """The run `spec` of a campaign.toml at `path`; raises `InputError` with one line for each problem of its files."""
     file = path.parent / spec.file
     found: list[str] = []
     changed = _collect(found, lambda: with_changes(model, spec.set, f"{path}: {spec.file}")) if model else None
@@ -118,6 +126,10 @@ def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel | 
     within = None if consent.outside_given() else path.parent
     table = _collect(found, lambda: read_run_table(path.parent, spec, described, height, within))
     ends = _collect(found, lambda: _ends(table, spec, described, height, file)) if table and model else None
+    if ends and table and model:
+        trips = (ends.car, ends.counterweight)
+        sentence = mirrored_car(changed or model, described.channels, table.values, trips, table.time)
+        found += [f"{file}: {sentence}"] if sentence else []
     if found or ends is None or table is None:
         raise InputError("\n".join(found))
     notes = tuple(f"{spec.file}: {one}" for one in (*table.remarks, *ends.remarks))

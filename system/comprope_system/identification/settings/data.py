@@ -64,4 +64,31 @@ class Noise:
     floor_share: float = setting(1e-4, "1", "the same, share of the channel's standard deviation", JUDGEMENT)
 
 
-TRIP_PHASES, WHITENING, NOISE = TripPhases(), Whitening(), Noise()
+@dataclass(frozen=True)
+class Plausibility:
+    """What `comprope check` says about channels before any simulation."""
+
+    min_samples: int = setting(20, "1", "fewest samples of a channel that is judged", JUDGEMENT)
+    min_rolling: float = setting(0.2, "rad/s", "least angular velocity of the sheave that tells sign, unit and delay", JUDGEMENT)
+    min_correlation: float = setting(
+        0.9, "1", "correlation with the rolling speed from which on sign, unit and delay are told", JUDGEMENT
+    )
+    swapped: float = setting(0.98, "1", "correlation from which on another channel is the angular velocity", JUDGEMENT)
+    gain: float = setting(1.3, "1", "ratio to the rolling speed, or its inverse, from which on a unit is wrong", JUDGEMENT)
+    delay: float = setting(0.06, "s", "delay against the car that is told; the sheave follows within less", JUDGEMENT)
+    max_delay: float = setting(2.0, "s", "largest delay that is looked for", JUDGEMENT)
+    delay_step: float = setting(0.01, "s", "resolution of the delay", JUDGEMENT)
+    min_gaps: float = setting(
+        0.03, "1", "share of missing samples, and of others, that tells where a sensor sees the rope", JUDGEMENT
+    )
+    poor_view: float = setting(
+        0.85, "1", "share of samples that agree with what a sensor can see, below which it is doubted", JUDGEMENT
+    )
+    good_view: float = setting(0.95, "1", "the same share above which another arrangement is believed", JUDGEMENT)
+    lateral: float = setting(1.5, "m", "lateral displacement that no shaft has room for", JUDGEMENT)
+    axle: float = setting(0.5, "m", "displacement of the sheave that no guide has room for, in a pit that is smaller", JUDGEMENT)
+    tension: float = setting(1.5, "1", "ratio of a tension at rest to the weight, or its inverse, that is told", JUDGEMENT)
+    noise: float = setting(5.0, "1", "ratio of noise at rest to the stated one, or its inverse, that is told", JUDGEMENT)
+
+
+TRIP_PHASES, WHITENING, NOISE, PLAUSIBILITY = TripPhases(), Whitening(), Noise(), Plausibility()

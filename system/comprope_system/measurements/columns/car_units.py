@@ -51,8 +51,11 @@ def middle_speed(time: Floats, position: Floats) -> tuple[float, float] | None:
 
 
 def time_unit(speed: float, travel: float) -> str | None:
-    """The only unit of time with which a speed [m/s] that is none with seconds is a car's; None if none, or several, are."""
-    fitting = [unit for unit, size in TIMES.items() if SPEEDS[0] <= speed / size <= fastest(travel)]
+    """The only unit of time with which a speed [m/s] that is too low with seconds is a car's; None if none, or several, are.
+
+    Units longer than a second are not guessed: one fits almost any number.
+    """
+    fitting = [unit for unit, size in TIMES.items() if size < 1.0 and SPEEDS[0] <= speed / size <= fastest(travel)]
     return fitting[0] if len(fitting) == 1 else None
 
 

@@ -24,6 +24,7 @@ SAMPLE_NAMES = re.compile(
 EPOCH = (1e9, 5e9)  # s since 1970 of the years 2001 to 2128; LabVIEW's seconds since 1904 lie there too
 DAY_NUMBERS = ((2e4, 8e4), (7e5, 8e5), (2.4e6, 2.5e6))  # days of Excel and OLE, of MATLAB and Python, Julian
 SHORTEST = 0.5  # a record of a trip is longer [s]; times that span less are days or hours
+FRACTION = 0.1  # a record shorter than this share of its first time, between 0 and 1, is a part of a day
 EPOCH_DIGITS = 6  # of a second that a double holds of an epoch or a day number
 
 
@@ -155,7 +156,7 @@ def _by_size(known: NDArray) -> tuple[str, str, str] | None:
             return unit, "date", f"time read as {unit} since an epoch"
     if any(low < first < high for low, high in DAY_NUMBERS) and span < SHORTEST:
         return "d", "date", "time read as day numbers"
-    if 0.0 <= first < 1.0 and span < min(SHORTEST, 0.05) and len(known) > 20:
+    if 0.0 < first < 1.0 and 0.0 < span < FRACTION * first:
         return "d", "clock", "time read as fractions of a day"
     return None
 
