@@ -9,9 +9,9 @@ from ..data.campaign import Campaign, Run
 from ..data.whitening import outliers, sample_noise
 from ..prediction.parameter_point import Predictions
 from ..prediction.replay import relative_to_rest
+from ..settings import COMPARISON
 
 Floats = NDArray[np.float64]
-ROUNDING = 1e-12  # share of a value by which rounding in the conversion of units may move it
 
 
 def trusted(measured: Floats, predicted: Floats, noise: float) -> NDArray[np.bool_]:
@@ -35,7 +35,7 @@ def channel_error(measured: Floats, predicted: Floats, noise: float) -> float:
 
 def moves(measured: Floats) -> bool:
     """Whether a channel (n,) varies at all, beyond rounding; the error of one that does not is not defined."""
-    return bool(len(measured)) and float(np.ptp(measured)) > ROUNDING * float(np.max(np.abs(measured)))
+    return bool(len(measured)) and float(np.ptp(measured)) > COMPARISON.rounding * float(np.max(np.abs(measured)))
 
 
 def overall(errors: Iterable[float]) -> float:

@@ -9,6 +9,9 @@ from .declaration import JUDGEMENT, setting
 class Comparison:
     """Error measures."""
 
+    rounding: float = setting(
+        1e-12, "1", "variation over the largest value up to which a channel does not move", "rounding in the conversion of units"
+    )
     position_bins: int = setting(10, "1", "bins of the car's position over the height of the shaft", JUDGEMENT)
     frequency_bands: tuple[float, ...] = setting(
         (0.0, 0.2, 0.5, 1.0, 2.0, 5.0, float("inf")), "Hz", "limits of frequency bands", JUDGEMENT
