@@ -306,7 +306,7 @@ static void scenario_wrong(void)
     CHECK(fmu.GetReal(one, &given.output, 1, &value) == fmi2Error); /* after an error there is no output */
     CHECK(fmu.GetRealStatus(one, fmi2LastSuccessfulTime, &value) == fmi2OK && value == 0.0);
     CHECK(fmu.GetRealStatus(one, fmi2DoStepStatus, &value) == fmi2Discard);
-    const double steps[] = {0.0, -0.01, NAN, INFINITY, 1e300, 1e-300};
+    const double steps[] = {0.0, -0.01, NAN, INFINITY, 1e300};
     for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
         fmu.FreeInstance(one);
         one = begun(&fmu);

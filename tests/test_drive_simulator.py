@@ -130,8 +130,8 @@ def small_trip(load: float) -> tuple[list[dict[str, Any]], np.ndarray]:
     references = [trip.at(k * period) for k in range(n + 1)]
     u = np.array([[one.position, one.velocity, one.acceleration, load, 0.0] for one in references]).T
     expected = control.forced_response(loop, inputs=u).outputs
-    inputs = {**STILL, "car_end_tension": load / drive.rope.count}
-    own = create({"trip.destination": 0.015, "trip.start_time": 0.0}, STILL, 0.0)
+    inputs = {**ROPES, "car_end_tension": ROPES["car_end_tension"] + load / drive.rope.count}
+    own = create({"trip.destination": 0.015, "trip.start_time": 0.0}, ROPES, 0.0)
     return run(own, [period] * n, inputs), expected
 
 
@@ -142,12 +142,36 @@ def test_the_simulator_answers_like_python_controls_closed_loop(load: float) -> 
     assert column(own, "encoder_position") == pytest.approx(expected[1, 1:], abs=1e-11)
 
 
+@pytest.mark.parametrize("late", [0, 1, 7])
+def test_tensions_that_come_with_the_first_steps_belong_to_the_equilibrium(late: int) -> None:
+    """Whether an importer propagates them at initialization, in the first step or a little later: the same trip, bit for bit."""
+    known, unknown = simulator(ROPES), simulator(STILL)
+    expected = run(known, [0.02] * 300, ROPES)
+    found = run(unknown, [0.02] * late, STILL) + run(unknown, [0.02] * (300 - late), ROPES, 0.02 * late)
+    assert found[late:] == expected[late:]
+    assert unknown.get_state() == known.get_state()
+
+
+def test_tensions_that_come_later_are_a_load() -> None:
+    """Once the car has moved, or has had tensions, nothing is taken for an equilibrium any more."""
+    moving = simulator(STILL, trip__start_time=0.0)
+    run(moving, [0.02] * 10, STILL)
+    before, after = moving.outputs()["motor_torque"], run(moving, [0.5], ROPES, 0.2)[-1]["motor_torque"]
+    assert abs(after - before) > 10.0
+    assert run(simulator(ROPES), [0.5], {**ROPES, "car_end_tension": 0.0})[-1]["car_position"] > 1e-4
+
+
+def test_a_motor_too_weak_for_the_first_tensions_is_refused() -> None:
+    with pytest.raises(InputError, match=r"servo\.torque_limit = 2000\.0 N\.m: more than the"):
+        simulator(STILL, servo__torque_limit=2000.0).step(0.0, 0.01, {**STILL, "car_end_tension": 50000.0})
+
+
 def test_a_load_stretches_the_rope_and_the_encoder_stays() -> None:
-    drive = simulator(trip__destination=0.0)
-    last = run(drive, [0.02] * 1000, {**STILL, "car_end_tension": 500.0})[-1]
+    drive = simulator(ROPES, trip__destination=0.0)
+    last = run(drive, [0.02] * 1000, {**ROPES, "car_end_tension": 1750.0})[-1]
     assert last["encoder_position"] == pytest.approx(0.0, abs=1e-7)
     assert last["car_position"] == pytest.approx(-2 * 500.0 * 54.0 / 3e7, rel=1e-4)
-    assert last["motor_torque"] - simulator().outputs()["motor_torque"] == pytest.approx(2 * 500.0 * 0.25, rel=1e-4)
+    assert last["motor_torque"] - simulator(ROPES).outputs()["motor_torque"] == pytest.approx(2 * 500.0 * 0.25, rel=1e-4)
 
 
 STEPS = {

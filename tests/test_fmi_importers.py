@@ -110,6 +110,13 @@ def test_state_of_another_build_is_refused(fmu: Path, other_build: Path) -> None
     assert result.returncode == 1  # the host's own exception, no crash
 
 
+def test_fmus_of_the_same_code_live_side_by_side(fmu: Path, tmp_path: Path) -> None:
+    """They differ in their GUID only, as with other files inside or another description."""
+    twin = build(interface(0.25), ["spring"], ENTRY, tmp_path, Origin("1.2.4", "MIT"), root=TOYS)
+    assert read_model_description(str(twin)).guid != read_model_description(str(fmu)).guid
+    assert told(hosted("together", fmu, twin, fmu), "VALUE") == [f"spring {direct(9).place!r}"] * 3
+
+
 @pytest.mark.parametrize("order", [1, -1])
 def test_builds_never_mix(fmu: Path, other_build: Path, order: int) -> None:
     pairs = [(fmu, "spring"), (other_build, "other"), (fmu, "spring")][::order]

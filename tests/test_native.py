@@ -270,7 +270,7 @@ def built_apart(out: Path, fmu: Path, sources: Path, *effects: Path) -> Path:
     places = os.pathsep.join([str(sources), os.environ.get("PYTHONPATH", "")])
     environment = os.environ | {"PYTHONPATH": places, "COMPROPE_ALLOW_CODE": "1"}
     subprocess.run([sys.executable, "-c", BUILD, *given], env=environment, check=True)
-    assert sorted(path.name for path in out.iterdir()) == [native_fmu("native_fmi3").name, fmu.name]
+    assert sorted(path.name for path in out.iterdir()) == [fmu.name, native_fmu("native_fmi3").name]
     return out / fmu.name
 
 

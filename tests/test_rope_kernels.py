@@ -224,7 +224,9 @@ def test_paths_join_smoothly_and_reach_a_steady_motion(derivatives: bool, at_end
 
     motion, time, before = EndMotion(0.4, inputs(0.0), 0.0, derivatives=derivatives, at_end=at_end), 0.0, None
     for dt in (0.01, 0.02, 0.005, 0.01, 0.03):
-        path = motion.path(time, dt, inputs(time + dt if at_end else time)).reshape(4, 6)
+        path, duration = motion.path(time, dt, inputs(time + dt if at_end else time))
+        assert duration == dt
+        path = path.reshape(4, 6)
         if before is not None:
             assert np.array_equal(path[:, :3], before[:, 3:])
         time, before = time + dt, path

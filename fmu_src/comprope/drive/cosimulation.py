@@ -15,13 +15,13 @@ from pydantic import ValidationError
 from ..errors import InputError
 from ..fmi.model_interface import ModelInterface, Variable, parameters_of
 from ..validation_messages import validation_problems
-from .hoist_dynamics import holding_force
 from .parameters import Drive
-from .simulator import DriveSimulator, compensation_forces, input_problems
+from .simulator import TENSIONS, DriveSimulator, input_problems, torque_problems
 from .stability_margins import unstable_positions
 from .trajectory.reference_trajectory import first_trajectory
 
 NAME = "ElevatorDrive"
+TORQUE = "motor_torque"  # the output
 # Source of the entry module in the FMU, which creates the interface.
 ENTRY = """\
 from .drive.cosimulation import interface
@@ -39,7 +39,7 @@ _REAL_OUTPUTS = (  # name, unit, nominal, help
     ("counterweight_velocity", "m/s", 1.0, "counterweight velocity, up positive"),
     ("counterweight_acceleration", "m/s2", 1.0, "counterweight acceleration, up positive"),
     ("encoder_position", "m", 10.0, "car height from the encoder on the traction sheave, without rope elongation"),
-    ("motor_torque", "N.m", 1000.0, "torque of the motor, positive when it moves the car up"),
+    (TORQUE, "N.m", 1000.0, "torque of the motor, positive when it moves the car up"),
     ("reference_position", "m", 10.0, "reference of the car height"),
     ("reference_velocity", "m/s", 1.0, "reference of the car velocity, up positive"),
     ("reference_acceleration", "m/s2", 1.0, "reference of the car acceleration, up positive"),
@@ -66,7 +66,7 @@ def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time:
     """
     drive = drive_from_parameters(parameters)
     found = input_problems(drive, inputs) + _start_problems(drive, start_time)
-    found = found or _torque_problems(drive, inputs) + _gain_problems(drive)
+    found = found or torque_problems(drive, inputs) + _gain_problems(drive)
     if found:
         raise InputError("; ".join(found))
     return DriveSimulator(drive, inputs, start_time)
@@ -91,14 +91,6 @@ def _start_problems(drive: Drive, start_time: float) -> list[str]:
     return [f"trip.start_time = {first} s: the start of the simulation, {start_time} s, or later is accepted"]
 
 
-def _torque_problems(drive: Drive, inputs: Mapping[str, Any]) -> list[str]:
-    force = holding_force(drive, drive.trip.start_position, *compensation_forces(drive, inputs))
-    needed, limit = abs(force) * drive.plant.sheave_radius, drive.servo.torque_limit
-    if limit > needed:
-        return []
-    return [f"servo.torque_limit = {limit} N.m: more than the {needed:.6g} N.m that hold the car initially is accepted"]
-
-
 def _gain_problems(drive: Drive) -> list[str]:
     swinging = unstable_positions(drive)
     if not swinging:
@@ -118,7 +110,9 @@ def _parameters(drive: Drive) -> tuple[Variable, ...]:
 
 
 def _inputs(drive: Drive) -> tuple[Variable, ...]:
-    help_text = "tension of one compensation rope at its {} end, pulling down; its initial value belongs to the equilibrium"
+    help_text = (
+        "tension of one compensation rope at its {} end, down; the first values that are not zero belong to the equilibrium"
+    )
     tensions = (
         Variable(f"{end}_end_tension", "real", "input", help_text.format(end), "N", 0.0, -1e6, 1e6, 1000.0)
         for end in ("car", "counterweight")
@@ -128,5 +122,9 @@ def _inputs(drive: Drive) -> tuple[Variable, ...]:
 
 
 def _outputs() -> tuple[Variable, ...]:
-    numbers = (Variable(name, "real", "output", help, unit, nominal=nominal) for name, unit, nominal, help in _REAL_OUTPUTS)
-    return (*numbers, *(Variable(name, "boolean", "output", help) for name, help in _FLAGS))
+    """All outputs; of the inputs, only the tensions change any of them at the start: they load the motor that holds the car."""
+    numbers = (
+        Variable(name, "real", "output", help, unit, nominal=nominal, initial_depends_on=TENSIONS if name == TORQUE else ())
+        for name, unit, nominal, help in _REAL_OUTPUTS
+    )
+    return (*numbers, *(Variable(name, "boolean", "output", help, initial_depends_on=()) for name, help in _FLAGS))

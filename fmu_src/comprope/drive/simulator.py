@@ -40,14 +40,17 @@ class DriveSimulator:
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
         """Advance from `time` to `time + dt` [s] with inputs held.
 
-        Raises `InputError` for a destination outside the shaft or a tension that is not finite, `SimulationError`
-        when the motor is too weak to keep the car in the shaft.
+        The equilibrium at the start is that with the first tensions that are not zero, as long as nothing has moved: not every
+        importer propagates tensions during initialization. Raises `InputError` for a destination outside the shaft, a
+        tension that is not finite or a motor too weak to hold the car, `SimulationError` when it cannot keep it in the shaft.
         """
         found = input_problems(self._drive, inputs)
         if found:
             raise InputError("; ".join(found))
         state, period = self._state, self._drive.servo.sample_period
         forces = compensation_forces(self._drive, inputs)
+        if state.rest_forces == (0.0, 0.0) and not state.vector.any():
+            self._settle(inputs)
         state.vector[_COMPENSATION] = forces[0] - state.rest_forces[0], forces[1] - state.rest_forces[1]
         end, same = time + dt - self._start_time, _SAME_TIME * period
         while end - (state.periods * period + state.elapsed) > same:
@@ -83,6 +86,13 @@ class DriveSimulator:
         """Restore a state of `get_state` of a simulator with the same parameters and start time."""
         self._state = DriveState.from_bytes(state)
         self._trajectory = reference_trajectory(self._drive, self._state.s_curve)
+        self._set_force_limits()
+
+    def _settle(self, inputs: Mapping[str, Any]) -> None:
+        """Take the tensions for those of the equilibrium at the start."""
+        if problems := torque_problems(self._drive, inputs):
+            raise InputError("; ".join(problems))
+        self._state.rest_forces = compensation_forces(self._drive, inputs)
         self._set_force_limits()
 
     def _now(self) -> float:
@@ -133,6 +143,15 @@ def compensation_forces(drive: Drive, inputs: Mapping[str, Any]) -> tuple[float,
     """Forces of all compensation ropes on car and counterweight [N], down positive."""
     car, counterweight = (drive.rope.count * inputs[name] for name in TENSIONS)
     return car, counterweight
+
+
+def torque_problems(drive: Drive, inputs: Mapping[str, Any]) -> list[str]:
+    """A sentence if the motor is too weak to hold the car initially."""
+    force = holding_force(drive, drive.trip.start_position, *compensation_forces(drive, inputs))
+    needed, limit = abs(force) * drive.plant.sheave_radius, drive.servo.torque_limit
+    if limit > needed:
+        return []
+    return [f"servo.torque_limit = {limit} N.m: more than the {needed:.6g} N.m that hold the car initially is accepted"]
 
 
 def input_problems(drive: Drive, inputs: Mapping[str, Any]) -> list[str]:

@@ -90,12 +90,27 @@ def _text(value: Value) -> str:
 def _rebuild_structure(structure: ET.Element, interface: ModelInterface) -> None:
     """List every output twice: with its dependencies on inputs while stepping, and as an initial unknown."""
     structure.clear()
-    places = {one.name: place for place, one in enumerate(interface.variables, 1)}
     outputs = interface.of_role("output")
     if not outputs:
         return
     while_stepping, at_start = (ET.SubElement(structure, tag) for tag in ("Outputs", "InitialUnknowns"))
     for one in outputs:
-        depends_on = " ".join(str(place) for place in sorted(places[name] for name in one.depends_on))
-        ET.SubElement(while_stepping, "Unknown", index=str(places[one.name]), dependencies=depends_on)
-        ET.SubElement(at_start, "Unknown", index=str(places[one.name]))
+        index, stepping, initially = dependencies(interface, one, first=1)
+        ET.SubElement(while_stepping, "Unknown", {"index": index} | stepping)
+        ET.SubElement(at_start, "Unknown", {"index": index} | initially)
+
+
+def dependencies(interface: ModelInterface, output: Variable, first: int) -> tuple[str, dict[str, str], dict[str, str]]:
+    """The place of an output, and the attribute with what it depends on: while stepping, and at the start.
+
+    Places count from `first`. At the start every output may depend on every parameter; the attribute is absent where it is not
+    known which inputs matter.
+    """
+    places = {one.name: place for place, one in enumerate(interface.variables, first)}
+    parameters = [one.name for one in interface.of_role("parameter")]
+
+    def attribute(names: Iterable[str]) -> dict[str, str]:
+        return {"dependencies": " ".join(map(str, sorted(places[name] for name in names)))}
+
+    known = output.initial_depends_on
+    return str(places[output.name]), attribute(output.depends_on), {} if known is None else attribute([*parameters, *known])

@@ -19,7 +19,8 @@ class Variable:
     """One variable of a model, in SI units.
 
     A parameter is fixed once the steps have begun. Parameters and inputs have a start value.
-    `depends_on` names, for an output, the inputs with direct feedthrough.
+    `depends_on` names, for an output, the inputs with direct feedthrough while stepping, and `initial_depends_on` those that it
+    depends on at the start; None: any.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Variable:
     nominal: float | None = None
     depends_on: tuple[str, ...] = ()
     display_unit: str | None = None
+    initial_depends_on: tuple[str, ...] | None = None
 
     @property
     def variability(self) -> str:

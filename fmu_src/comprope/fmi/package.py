@@ -61,7 +61,7 @@ NAME, PACKAGE = "{name}", "{package}"
 
 
 def functions():
-    """The functions of the FMI for this FMU; the package is loaded once, wherever the FMU is unpacked."""
+    """The functions of the FMI for this FMU; the package is loaded once, for all FMUs with this code."""
     if PACKAGE not in sys.modules:
         folder = os.path.join(RESOURCES, PACKAGE)
         spec = importlib.util.spec_from_file_location(
@@ -70,15 +70,19 @@ def functions():
         sys.modules[PACKAGE] = package = importlib.util.module_from_spec(spec)
         try:
             spec.loader.exec_module(package)
-            interface = importlib.import_module(PACKAGE + ".bundled").INTERFACE
-            make = importlib.import_module(PACKAGE + ".fmi.functions").Functions
-            with open(os.path.join(RESOURCES, "guid.txt"), encoding="ascii") as file:
-                package.FUNCTIONS = make(interface, NAME + " of " + PACKAGE, file.read())
+            package.interface = importlib.import_module(PACKAGE + ".bundled").INTERFACE
+            package.make = importlib.import_module(PACKAGE + ".fmi.functions").Functions
+            package.by_guid = {{}}
         except BaseException:
             for module in [one for one in sys.modules if one == PACKAGE or one.startswith(PACKAGE + ".")]:
                 del sys.modules[module]
             raise
-    return sys.modules[PACKAGE].FUNCTIONS
+    package = sys.modules[PACKAGE]
+    with open(os.path.join(RESOURCES, "guid.txt"), encoding="ascii") as file:
+        guid = file.read()
+    if guid not in package.by_guid:
+        package.by_guid[guid] = package.make(package.interface, NAME + " of " + PACKAGE, guid)
+    return package.by_guid[guid]
 
 
 try:

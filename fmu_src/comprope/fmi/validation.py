@@ -75,6 +75,8 @@ def interface_problems(interface: ModelInterface) -> list[str]:
     found = [f"{name}: declared more than once" for name in sorted({name for name in names if names.count(name) > 1})]
     for one in interface.variables:
         found += [f"{one.name}: depends on {other}, which is no input" for other in one.depends_on if other not in inputs]
+        at_start = one.initial_depends_on or ()
+        found += [f"{one.name}: depends on {other} at the start, which is no input" for other in at_start if other not in inputs]
         if (one.start is None) != (one.role == "output"):
             found.append(f"{one.name}: parameters and inputs, and only they, have a start value")
         elif one.role != "output":

@@ -4,7 +4,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
 from ..fmi.icon import SIZE, icon
-from ..fmi.model_description import default_experiment, general_attributes, type_attributes, unit_definitions
+from ..fmi.model_description import default_experiment, dependencies, general_attributes, type_attributes, unit_definitions
 from ..fmi.model_interface import ModelInterface, Variable
 from .fmi_version import FmiVersion
 from .targets import TARGETS
@@ -45,13 +45,11 @@ def _time(place: int) -> dict[str, str]:
 
 def _add_structure(structure: ET.Element, interface: ModelInterface) -> None:
     """List every output with its dependencies on inputs while stepping, and as an initial unknown."""
-    places = {one.name: place for place, one in enumerate(interface.variables)}
-    outputs = interface.of_role("output")
-    for one in outputs:
-        depends_on = " ".join(str(place) for place in sorted(places[name] for name in one.depends_on))
-        ET.SubElement(structure, "Output", valueReference=str(places[one.name]), dependencies=depends_on)
-    for one in outputs:
-        ET.SubElement(structure, "InitialUnknown", valueReference=str(places[one.name]))
+    found = [dependencies(interface, one, first=0) for one in interface.of_role("output")]
+    for place, stepping, _ in found:
+        ET.SubElement(structure, "Output", {"valueReference": place} | stepping)
+    for place, _, initially in found:
+        ET.SubElement(structure, "InitialUnknown", {"valueReference": place} | initially)
 
 
 def binary_files(name: str, binaries: Mapping[str, bytes]) -> dict[str, bytes]:

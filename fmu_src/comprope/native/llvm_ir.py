@@ -22,8 +22,8 @@ from ..errors import CompropeError
 PREFIX = "comprope_"
 # Entry points that a program without Python calls, of `entry_points.ENTRIES`.
 CALLED = (
-    "generate_mesh", "check_mesh", "check_reach", "start_at_rest", "start_inputs", "interpolate_inputs", "advance",
-    "evaluate_outputs",
+    "generate_mesh", "check_mesh", "check_reach", "check_start", "start_at_rest", "start_inputs", "check_motion",
+    "interpolate_inputs", "advance", "evaluate_outputs",
 )  # fmt: skip
 _PLAIN = {"PYTHONHASHSEED": "0", "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0"}
 _NODES = (40, 41, 50)

@@ -97,7 +97,8 @@ bool rope_model_prepare(RopeModel *model, Allocator allocator, double *values, M
 bool rope_model_initialize(RopeModel *model, double t, Message *problems)
 {
     Rope *rope = &model->rope;
-    if (!kernel_succeeded(rope, rope_check_reach(rope, t), problems)) {
+    if (!kernel_succeeded(rope, rope_check_reach(rope, t), problems) ||
+        !kernel_succeeded(rope, rope_check_start(rope), problems)) {
         return false;
     }
     memset(model->block, 0, model->state_numbers * sizeof(double));
@@ -109,12 +110,16 @@ bool rope_model_initialize(RopeModel *model, double t, Message *problems)
 bool rope_model_step(RopeModel *model, double t, double dt, Message *problems)
 {
     Rope *rope = &model->rope;
-    if (!kernel_succeeded(rope, rope_check_reach(rope, t), problems)) {
+    if (!kernel_succeeded(rope, rope_check_reach(rope, t), problems) ||
+        !kernel_succeeded(rope, rope_check_motion(rope, t, dt), problems)) {
         return false;
     }
-    rope->array[STATE_time][0] = t;
-    rope_interpolate_inputs(rope, t, dt);
-    return kernel_succeeded(rope, rope_advance(rope, dt), problems);
+    const double duration = rope_interpolate_inputs(rope, t, dt);
+    if (duration == 0.0) { /* put off to the next step */
+        return true;
+    }
+    rope->array[STATE_time][0] = t - (duration - dt);
+    return kernel_succeeded(rope, rope_advance(rope, duration), problems);
 }
 
 const double *rope_model_outputs(RopeModel *model)

@@ -70,6 +70,8 @@ ENTRIES = {
     "generate_mesh": mesh.generate_mesh,
     "check_mesh": mesh.check_mesh,
     "check_reach": initial_state.check_reach,
+    "check_start": initial_state.check_start,
+    "check_motion": input_interpolation.check_motion,
     "start_at_rest": initial_state.start_at_rest,
     "start_inputs": input_interpolation.start_inputs,
     "interpolate_inputs": input_interpolation.interpolate_inputs,

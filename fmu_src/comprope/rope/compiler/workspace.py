@@ -32,12 +32,13 @@ class RopeWorkspace:
         self.state = empty_state(n, states, count)
         self.ends = empty_ends()
         self.motion = Motion(*(np.zeros(2 * m) for _ in range(3)))
-        self.work = _empty_workspace(m, count, self.state)
+        self.work = empty_workspace(m, count, self.state)
         places = np.zeros(1) if sensors is None else sensors
         self.outputs = Outputs(places, np.zeros(2), np.zeros(places.size + len(OUTPUTS)))
-        self.check_reach, self.start_at_rest, self.advance, self.evaluate_outputs, self.energy_residual = (
-            self.bind(name) for name in ("check_reach", "start_at_rest", "advance", "evaluate_outputs", "energy_residual")
+        self.check_reach, self.check_start, self.start_at_rest, self.advance = (
+            self.bind(name) for name in ("check_reach", "check_start", "start_at_rest", "advance")
         )
+        self.evaluate_outputs, self.energy_residual = (self.bind(name) for name in ("evaluate_outputs", "energy_residual"))
         self.forces, self.place_ends, self.read_displacement, self.read_side_maximum = (
             self.bind(name) for name in ("forces", "place_ends", "read_displacement", "read_side_maximum")
         )
@@ -64,7 +65,8 @@ def empty_ends() -> Ends:
     return Ends(samples=np.zeros(INPUT_MEMORY), path=np.zeros(PATHS * PATH), u=np.zeros(INPUTS), options=np.zeros(2))
 
 
-def _empty_workspace(m: int, effects: int, state: State) -> Workspace:
+def empty_workspace(m: int, effects: int, state: State) -> Workspace:
+    """Workspace of zeros for m columns, a number of effects, and a state."""
     return Workspace(
         w=np.zeros(array_layout.SECTIONS * m),
         f=np.zeros(2 * m),

@@ -8,12 +8,14 @@ from ..mechanics.energy import begin_balance
 from ..mechanics.equations_of_motion import forces_of_state
 from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Ends, Motion, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import ELEMENT, M, R
-from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_REACH, SUCCESS
+from ..runtime.parameter_vector import ELEMENT, HEIGHT, PIT, M, R
+from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_PLACE, OUT_OF_REACH, SUCCESS
 from .inputs import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
 from .mesh import rope_length
 from .newmark import copy
 from .static_equilibrium import solve_equilibrium
+
+LARGEST_LIFT = 1.0  # m, of the axle at the start, from where it is built: ropes stretch by centimetres, pits are metres deep
 
 
 @kernel
@@ -27,6 +29,18 @@ def check_reach(rope: RopeData, ends: Ends, work: Workspace, t: float) -> int:
     message[0], message[1], message[2] = u[CAR], u[COUNTERWEIGHT], t
     message[3], message[4], message[5] = length, lowest, p[R]
     return OUT_OF_REACH
+
+
+@kernel
+def check_start(rope: RopeData, ends: Ends, work: Workspace) -> int:
+    """Refuse ends between which the axle would hang far from where it is built; returns SUCCESS or the kind of refusal."""
+    p, u, message = rope.p, ends.u, work.message
+    lifted = 0.5 * (u[CAR] + u[COUNTERWEIGHT] - p[HEIGHT])
+    if abs(lifted) <= LARGEST_LIFT:
+        return SUCCESS
+    message[0], message[1] = u[CAR], u[COUNTERWEIGHT]
+    message[2], message[3], message[4] = lifted - p[PIT], -p[PIT], LARGEST_LIFT
+    return OUT_OF_PLACE
 
 
 @kernel

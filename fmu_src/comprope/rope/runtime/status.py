@@ -7,8 +7,16 @@ from collections.abc import Iterable
 
 from ...errors import CompropeError, InputError, SimulationError
 
-SUCCESS, OUT_OF_REACH, NO_EQUILIBRIUM, LOST, LOST_AT_SHEAVE, TOO_MANY_STEPS, TOO_COARSE = range(7)
+SUCCESS, OUT_OF_REACH, NO_EQUILIBRIUM, LOST, LOST_AT_SHEAVE, TOO_MANY_STEPS, TOO_COARSE, OUT_OF_PLACE = range(8)
+# An end that moves too far, and one that is too fast, for each path of `end_conditions`.
+TOO_FAR, TOO_FAST = 8, 12
 MESSAGE_VALUES = 6  # at most
+_PATHS = ("car_position", "car_lateral_displacement", "counterweight_position", "counterweight_lateral_displacement")
+_TOO_FAR = (
+    "%s = %%g m at t = %%g s: %%g m from its last value, %%g s earlier; at most %%g m/s, and jumps of at most %%g m, are "
+    "accepted; values at initialization must be those of the first step"
+)
+_TOO_FAST = "%s = %%g m/s with %%g m/s2 at t = %%g s: a velocity of at most %%g m/s is accepted throughout the step"
 
 # For each kind: the error (the user's values, or the computation), the text, how many values it takes.
 MESSAGES: dict[int, tuple[type[CompropeError], str, int]] = {
@@ -44,7 +52,15 @@ MESSAGES: dict[int, tuple[type[CompropeError], str, int]] = {
         "rope.element_length = %g m is too coarse for the sheave; at most half of sheave.radius = %g m is accepted",
         2,
     ),
+    OUT_OF_PLACE: (
+        InputError,
+        "car_position = %g m with counterweight_position = %g m at the start: the axle would hang at %g m, and is built at %g m; "
+        "at most %g m from there is accepted, as with counterweight_position = shaft.height - car_position",
+        5,
+    ),
 }
+MESSAGES |= {TOO_FAR + k: (InputError, _TOO_FAR % name, 6) for k, name in enumerate(_PATHS)}
+MESSAGES |= {TOO_FAST + k: (InputError, _TOO_FAST % name.replace("position", "velocity"), 4) for k, name in enumerate(_PATHS)}
 
 
 def require_success(status: float, values: Iterable[float]) -> None:

@@ -101,13 +101,19 @@ class RopeSimulator:
         )
         car, counterweight = (float(inputs[f"{end}_position"]) for end in ENDS)
         outward = (float(inputs["car_lateral_displacement"]), float(inputs["counterweight_lateral_displacement"]))
+        self.rope.check_start(car, counterweight, start_time)
         self.rope.solve_equilibrium(car, counterweight, outward, start_time)
 
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
-        """Advance from `time` by `dt` [s]; raises InputError for ends out of reach, SimulationError for a lost step."""
+        """Advance from `time` by `dt` [s]; a step too short for the integration of accelerations is put off to the next one.
+
+        Raises InputError for ends that jump or are out of reach, SimulationError for a lost step.
+        """
         self.rope.check_reach(float(inputs["car_position"]), float(inputs["counterweight_position"]), time)
-        self.rope.state.time[0] = time
-        self.rope.step(dt, self.motion.path(time, dt, inputs))
+        path, duration = self.motion.path(time, dt, inputs)
+        if duration > 0.0:
+            self.rope.state.time[0] = time - (duration - dt)
+            self.rope.step(duration, path)
 
     def outputs(self) -> Mapping[str, Value]:
         """All outputs by name at the current time."""

@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 
 from ..compiler.entry_points import compiled
-from ..compiler.workspace import empty_ends
+from ..compiler.workspace import empty_ends, empty_workspace
 from ..integration import input_interpolation
+from ..integration.state import empty_state
 from ..runtime.kernel_arguments import Array, RopeData
 from ..runtime.parameter_vector import DECLARED, R
+from ..runtime.status import require_success
 
 ENDS = ("car", "counterweight")
 # The inputs by name, in the order of `integration.inputs`.
@@ -28,7 +30,8 @@ NAMES = (
 
 def parabola(times: Array, values: Array, t: float) -> tuple[float, float, float]:
     """Value, slope and curvature at time t of the parabola through three points."""
-    value, slope, curvature = getattr(input_interpolation.parabola, "py_func", input_interpolation.parabola)(times, values, 0, t)
+    function = getattr(input_interpolation.parabola, "py_func", input_interpolation.parabola)
+    value, slope, curvature = function(*times, *values, t)
     return value, slope, curvature
 
 
@@ -38,11 +41,12 @@ class EndMotion:
     def __init__(self, radius: float, inputs: Mapping[str, Any], time: float, *, derivatives: bool, at_end: bool) -> None:
         p = np.zeros(len(DECLARED))
         p[R] = radius
-        self._ends = empty_ends()
+        self._ends, self._work = empty_ends(), empty_workspace(1, 0, empty_state(0, 0, 0))
         self._ends.options[:] = derivatives, at_end
         self.samples = self._ends.samples
-        start, self._interpolate = (
-            compiled()[name].bind(RopeData(0, 0, 0, p, p), self._ends) for name in ("start_inputs", "interpolate_inputs")
+        groups = RopeData(0, 0, 0, p, p), self._ends, self._work
+        start, self._check, self._interpolate = (
+            compiled()[name].bind(*groups) for name in ("start_inputs", "check_motion", "interpolate_inputs")
         )
         self._read_inputs(inputs)
         start(t=time)
@@ -50,11 +54,16 @@ class EndMotion:
     def _read_inputs(self, inputs: Mapping[str, Any]) -> None:
         self._ends.u[:] = [float(inputs.get(name, 0.0)) for name in NAMES]
 
-    def path(self, time: float, dt: float, inputs: Mapping[str, Any]) -> Array:
-        """The path of the ends from `time` to `time + dt` [s]; they are at its end afterwards."""
+    def path(self, time: float, dt: float, inputs: Mapping[str, Any]) -> tuple[Array, float]:
+        """The path of the ends to `time + dt` [s], and its duration [s]; they are at its end afterwards.
+
+        The duration is `dt`, with what earlier steps put off; 0 if this step is so short that it is put off as well. Raises
+        `InputError` for ends that jump or are too fast.
+        """
         self._read_inputs(inputs)
-        self._interpolate(t=time, dt=dt)
-        return self._ends.path.copy()
+        require_success(self._check(t=time, dt=dt), self._work.message)
+        duration = self._interpolate(t=time, dt=dt)
+        return self._ends.path.copy(), duration
 
     def to_bytes(self) -> bytes:
         """The whole memory."""

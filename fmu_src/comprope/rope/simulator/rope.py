@@ -72,6 +72,11 @@ class CompensationRope:
         self.workspace.ends.u[[CAR, COUNTERWEIGHT]] = car, counterweight
         require_success(self.workspace.check_reach(t=time), self.workspace.work.message)
 
+    def check_start(self, car: float, counterweight: float, time: float) -> None:
+        """Raise `InputError` for positions of the ends [m] at the start that do not fit the shaft."""
+        self.check_reach(car, counterweight, time)
+        require_success(self.workspace.check_start(), self.workspace.work.message)
+
     # -- in motion -------------------------------------------------------------------------------
 
     def step(self, dt: float, path: Array) -> None:

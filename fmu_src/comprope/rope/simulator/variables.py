@@ -2,13 +2,15 @@
 
 from typing import Any
 
-from ...fmi.model_interface import Variable, parameters_of
+from ...fmi.model_interface import Kind, Variable, parameters_of
 from ..effects import REGISTRY, names_of
 from ..parameters import Base
 from ..runtime.parameter_vector import COMPONENTS
 from .rope import values_of
 
 ENDS = ("car", "counterweight")
+# The inputs that a rope at rest depends on; velocities and accelerations matter from the first step.
+_PLACES = (*(f"{end}_position" for end in ENDS), *(f"{end}_lateral_displacement" for end in ENDS))
 _OUTPUTS = (  # name, unit, nominal, help
     ("sheave_force", "N", 1000.0, "vertical force of the rope on the sheave, up positive; its weight when at rest"),
     ("sheave_displacement", "m", 0.01, "height of the axle above where it is built, up positive"),
@@ -100,9 +102,12 @@ def _outputs(sensors: int) -> tuple[Variable, ...]:
     seen: list[Variable] = []
     for k in range(1, sensors + 1):
         help = f"outward displacement of the rope at sensor {k}, from the vertical through the sheave's side"
-        seen.append(Variable(f"lateral_displacement[{k}]", "real", "output", help, "m", nominal=0.05, display_unit="mm"))
+        seen.append(_output(f"lateral_displacement[{k}]", "real", help, "m", nominal=0.05, display_unit="mm"))
         gap = f"the rope passes sensor {k}; false: its end has passed, and the displacement is that of the end"
-        seen.append(Variable(f"in_view[{k}]", "boolean", "output", gap))
-    numbers = [Variable(name, "real", "output", help, unit, nominal=nominal) for name, unit, nominal, help in _OUTPUTS]
-    counts = [Variable(name, "integer", "output", help, start=None) for name, help in _COUNTS]
-    return (*seen, *numbers, *counts)
+        seen.append(_output(f"in_view[{k}]", "boolean", gap))
+    numbers = [_output(name, "real", help, unit, nominal=nominal) for name, unit, nominal, help in _OUTPUTS]
+    return (*seen, *numbers, *(_output(name, "integer", help) for name, help in _COUNTS))
+
+
+def _output(name: str, kind: Kind, help: str, unit: str = "1", **others: Any) -> Variable:
+    return Variable(name, kind, "output", help, unit, initial_depends_on=_PLACES, **others)
