@@ -13,6 +13,7 @@ from comprope.errors import CompropeError, InputError
 
 from . import commands
 from .commands._parameters import with_options
+from .commands._terminal import without_control_characters
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 # Matrices here are small: threads of the linear algebra would only wait for one another, for seconds on a busy machine.
@@ -68,7 +69,7 @@ def main(arguments: list[str] | None = None) -> None:
         status = app(arguments, prog_name="comprope", standalone_mode=False)
     except Exception as error:
         status, text = _explained(error)
-        sys.stderr.write("".join(f"{line}\n" for line in text.splitlines()))
+        sys.stderr.write("".join(f"{without_control_characters(line)}\n" for line in text.splitlines()))
     sys.exit(status or DONE)
 
 

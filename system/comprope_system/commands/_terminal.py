@@ -45,9 +45,14 @@ def require_files(*files: OutputFile) -> None:
             require_writable(one.path, one.kind)
 
 
+def without_control_characters(line: str) -> str:
+    """A line without characters that change a terminal; names in it may come from anybody's files."""
+    return "".join(one if one.isprintable() or one == "\t" else "\N{REPLACEMENT CHARACTER}" for one in line)
+
+
 def finish(result: "Result", *files: tuple[Path | None, Callable[[Path], None]]) -> None:
     """Print the summary of the result, then write each output file, completely or not at all, and print its name."""
-    sys.stdout.write(f"{result.summary()}\n")
+    sys.stdout.write("".join(f"{without_control_characters(line)}\n" for line in result.summary().split("\n")))
     for path, save in files:
         if path:
             save(path)

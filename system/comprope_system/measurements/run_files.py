@@ -84,6 +84,8 @@ class RunFiles:
             self._remark(file, axis.remark)
         seconds = self._on_clock_of_run(axis, file, column.name)
         timed = np.isfinite(seconds)
+        if lost := int((~timed & np.isfinite(values)).sum()):
+            remarks = [*remarks, f"{column.name}: {lost} {'sample' if lost == 1 else 'samples'} without a time left out"]
         return Samples(seconds[timed], values[timed], tuple(self._prefixed(file, one) for one in remarks), axis.sure)
 
     def named(self, file: str, error: InputError) -> InputError:

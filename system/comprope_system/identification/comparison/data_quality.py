@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from ...measurements.run_table import UNITS
-from ..data.campaign import Campaign, Run
+from ..data.campaign import Campaign
+from ..data.plausibility import remarks_on_record
 from ..data.trip_phases import phases
 from ..data.whitening import outliers
 from ..prediction.parameter_point import Predictions
@@ -26,7 +27,7 @@ def remarks(campaign: Campaign, predictions: Predictions, plain: Predictions | N
     untouched = list(records_of(campaign, plain or predictions))
     of_channels = [sentence for rule in PLAIN_RULES for group in by_column(untouched) for sentence in rule(group)]
     of_channels += [sentence for rule in CHANNEL_RULES for group in by_column(records) for sentence in rule(group)]
-    of_runs = [sentence for run in campaign.runs for sentence in _of_run(run)]
+    of_runs = [sentence for run in campaign.runs for sentence in remarks_on_record(run)]
     return [*campaign.notes, *of_channels, *clock(records), *of_runs, *(note for run in campaign.runs for note in run.notes)]
 
 
@@ -144,24 +145,3 @@ def unseen_rest(group: Sequence[Record]) -> Iterator[str]:
 Rule = Callable[[Sequence[Record]], Iterator[str]]
 PLAIN_RULES: tuple[Rule, ...] = (sign, unit, drift)
 CHANNEL_RULES: tuple[Rule, ...] = (noise, far_out, gaps, unseen_rest)
-
-
-# -- runs --------------------------------------------------------------------------------------------
-
-
-def _of_run(run: Run) -> Iterator[str]:
-    steps = np.diff(run.time)
-    widest = int(np.argmax(steps))
-    if steps[widest] > max(10.0 * float(np.median(steps)), 0.2):
-        yield f"{run.file}: no samples of any channel for {steps[widest]:.2g} s after time = {run.time[widest]:.4g} s"
-    if run.trip.kind == "rest":
-        yield f"{run.file}: the car does not move"
-    elif run.time[-1] < run.trip.rest_after:
-        yield f"{run.file}: the record ends before the car stops"
-    if run.trip.kind != "rest" and run.trip.rest_before - run.time[0] < 0.5:
-        rest = run.trip.rest_before - run.time[0]
-        yield f"{run.file}: only {rest:.2f} s at rest before the trip: the reference values at rest are uncertain"
-    if run.trip.noise > 5e-3:
-        yield f"{run.file}: car_position deviates from a smooth trip by {1e3 * run.trip.noise:.1f} mm (standard deviation)"
-    if run.trip.kind == "spline":
-        yield f"{run.file}: the car follows no jerk-limited profile; a smoothing spline is used, with less accurate accelerations"

@@ -9,7 +9,7 @@ from comprope.rope.model_file import load, with_changes
 
 from ...measurements.campaign_file import CampaignFile, RunSpec, read_campaign_file
 from .campaign import Run, campaign_path, channel_problems, read_run
-from .plausibility import remarks_on
+from .plausibility import remarks_on, remarks_on_record
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,7 @@ def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel) -
     changed = with_changes(model, spec.set, f"{path}: {spec.file}")
     channels = {one.column: one for one in described.channels}
     notes = [note.removeprefix(f"{spec.file}: ") for note in run.notes]
-    return RunCheck(spec.file, (), (*notes, *remarks_on(run, changed, channels)), run)
+    record = [one.removeprefix(f"{spec.file}: ") for one in remarks_on_record(run)]
+    return RunCheck(spec.file, (), (*notes, *record, *remarks_on(run, changed, channels)), run)
 
 

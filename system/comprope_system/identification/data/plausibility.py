@@ -32,6 +32,25 @@ def remarks_on(run: Run, model: RopeModel, channels: Mapping[str, Channel]) -> l
     return found
 
 
+def remarks_on_record(run: Run) -> Iterator[str]:
+    """Sentences about gaps of the record and its rests, each with the file of the run."""
+    steps = np.diff(run.time)
+    widest = int(np.argmax(steps))
+    if steps[widest] > max(10.0 * float(np.median(steps)), 0.2):
+        yield f"{run.file}: no samples of any channel for {steps[widest]:.2g} s after time = {run.time[widest]:.4g} s"
+    if run.trip.kind == "rest":
+        yield f"{run.file}: the car does not move"
+    elif run.time[-1] < run.trip.rest_after:
+        yield f"{run.file}: the record ends before the car stops"
+    if run.trip.kind != "rest" and run.trip.rest_before - run.time[0] < 0.5:
+        rest = run.trip.rest_before - run.time[0]
+        yield f"{run.file}: only {rest:.2f} s at rest before the trip: the reference values at rest are uncertain"
+    if run.trip.noise > 5e-3:
+        yield f"{run.file}: car_position deviates from a smooth trip by {1e3 * run.trip.noise:.1f} mm (standard deviation)"
+    if run.trip.kind == "spline":
+        yield f"{run.file}: the car follows no jerk-limited profile; a smoothing spline is used, with less accurate accelerations"
+
+
 # -- the sheave's rotation ---------------------------------------------------------------------------
 
 
@@ -47,8 +66,11 @@ def _angular_velocity(run: Run, model: RopeModel, channel: Channel, value: Float
     name = channel.column
     if not np.isfinite(gain):
         return
+    if abs(correlation) < PLAUSIBILITY.swapped and (other := _follower(run, model, name)):
+        yield f"{name} does not follow the car's speed, but {other} does: the two are probably swapped"
+        return
     if abs(correlation) < PLAUSIBILITY.min_correlation:
-        yield from _swapped(run, model, name)
+        yield f"{name} does not follow the car's speed: wrong column, or not the angular velocity of the sheave"
         return
     if correlation < 0.0:
         yield (
@@ -67,14 +89,11 @@ def _angular_velocity(run: Run, model: RopeModel, channel: Channel, value: Float
         yield f"{name}: {abs(late):.2g} s {word} than the car's motion: check the clocks, or write offsets in the run"
 
 
-def _swapped(run: Run, model: RopeModel, name: str) -> Iterator[str]:
+def _follower(run: Run, model: RopeModel, name: str) -> str | None:
     """Another channel that follows the car's speed in place of this one."""
     rolling = rolling_speed(run, model, run.time)
-    for column, value in run.values.items():
-        if column != name and abs(regression(value, rolling)[1]) > PLAUSIBILITY.swapped:
-            yield f"{name} does not follow the car's speed, but {column} does: the two are probably swapped"
-            return
-    yield f"{name} does not follow the car's speed: wrong column, or not the angular velocity of the sheave"
+    others = (column for column in run.values if column != name)
+    return next((one for one in others if abs(regression(run.values[one], rolling)[1]) > PLAUSIBILITY.swapped), None)
 
 
 def _delay(run: Run, model: RopeModel, value: Floats) -> float:

@@ -24,6 +24,7 @@ SAMPLE_NAMES = re.compile(
 EPOCH = (1e9, 5e9)  # s since 1970 of the years 2001 to 2128; LabVIEW's seconds since 1904 lie there too
 DAY_NUMBERS = ((2e4, 8e4), (7e5, 8e5), (2.4e6, 2.5e6))  # days of Excel and OLE, of MATLAB and Python, Julian
 SHORTEST = 0.5  # a record of a trip is longer [s]; times that span less are days or hours
+COUNTED = 20  # times that increase by 1 and are rather sample numbers than seconds
 FRACTION = 0.1  # a record shorter than this share of its first time, between 0 and 1, is a part of a day
 EPOCH_DIGITS = 6  # of a second that a double holds of an epoch or a day number
 
@@ -104,6 +105,10 @@ def _numeric(column: RawColumn, table: RawTable, stated: FileFormat) -> TimeAxis
     base = split_unit(column.name)[0].strip()
     counts = len(known) > 2 and bool(np.all(np.diff(known) == 1))
     rated = unit is None and (stated.rate or table.rate or 1.0) != 1.0
+    if counts and unit is None and not rated and len(known) >= COUNTED and not SAMPLE_NAMES.fullmatch(base):
+        raise InputError(
+            f'{column.name} counts 1 by 1: seconds or sample numbers? Write time_unit = "s", or rate = ... [Hz], under [file]'
+        )
     if unit == "sample" or (counts and (SAMPLE_NAMES.fullmatch(base) or rated)):
         return _in_stated_unit(numbers, known, "sample", stated.rate or table.rate)
     if unit in TIMES:
@@ -173,9 +178,13 @@ def _require_increasing(column: RawColumn, table: RawTable, axis: TimeAxis) -> N
     where = table.row_text(int(index[1 + int(np.argmax(steps <= 0.0))]))
     if back:
         raise InputError(
-            f"{column.name} in {where} must be later than the row before ({back} rows are earlier): several records in one file?"
+            f"{column.name} in {where} must be later than the row before ({_rows(back)} earlier): several records in one file?"
         )
     raise InputError(
-        f"{column.name} in {where} must be later than the row before ({same} rows have the same time): if samples are even, "
+        f"{column.name} in {where} must be later than the row before ({_rows(same)} at the same time): if samples are even, "
         'write their rate [Hz] under [file] and leave out the time column with time = ""'
     )
+
+
+def _rows(count: int) -> str:
+    return f"{count} row is" if count == 1 else f"{count} rows are"

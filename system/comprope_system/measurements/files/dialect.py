@@ -121,7 +121,10 @@ def locate(rows: Sequence[Cells], decimal: str, header: int | None) -> TableLine
 
 
 def _is_row(row: Cells, key: int, width: int, decimal: str) -> bool:
-    return len(row) > key and len(trimmed(row, width)) == width and _is_value(row[key], decimal)
+    if len(row) <= key or len(trimmed(row, width)) != width:
+        return False
+    # A slower clock may have no time left where another one still has.
+    return _is_value(row[key], decimal) or (is_missing(row[key]) and _values(row, decimal) >= LEAST_VALUES)
 
 
 def _values(row: Cells, decimal: str) -> int:
@@ -167,7 +170,7 @@ def fits(row: Cells, numeric: Sequence[bool], decimal: str) -> bool:
 
 def _is_units_row(row: Cells) -> bool:
     """Whether most cells of a row are units of measurement, in brackets or not, and the others empty."""
-    cells = [cell for cell in row if cell.strip("[]() -")]
+    cells = [cell for cell in row if cell.strip("[]() -1")]
     return len(cells) >= 2 and sum(is_unit(cell) for cell in cells) > 0.6 * len(cells)
 
 

@@ -11,6 +11,7 @@ from comprope.errors import InputError
 from ..units import is_unit, unit_like
 from .dialect import COMMENTS, Cells, TableLines, fits, locate, trimmed, uncommented
 from .file_format import FileFormat
+from .numerals import is_number
 from .raw_table import RawColumn, RawTable, unique_names
 
 _RATE = re.compile(
@@ -30,6 +31,7 @@ def table_of(rows: Sequence[Cells], decimal: str, stated: FileFormat) -> RawTabl
     found = locate(rows, decimal, stated.header)
     kept, remarks = _kept(rows, found, decimal)
     if found.header is None:
+        _require_unsplit_header(rows, found, decimal)
         remarks.append("no line of column names above the numbers; columns are named column 1, column 2, ...")
     names = uncommented(rows[found.header])[: found.width] if found.header is not None else []
     names = unique_names([*names, *[""] * (found.width - len(names))])
@@ -38,6 +40,16 @@ def table_of(rows: Sequence[Cells], decimal: str, stated: FileFormat) -> RawTabl
     cells = pd.DataFrame(padded, columns=names, dtype=str)
     columns = tuple(RawColumn(name, cells[name], unit) for name, unit in zip(names, units, strict=True))
     return RawTable(columns, _rate(rows[: found.first]), np.array(kept) + 1, decimal, tuple(remarks))
+
+
+def _require_unsplit_header(rows: Sequence[Cells], found: TableLines, decimal: str) -> None:
+    """Raise `InputError` if the line above the numbers has names, but fewer than a row has cells."""
+    above = next((rows[k] for k in range(found.first - 1, -1, -1) if rows[k]), [])
+    if 2 <= len(above) < found.width and not any(is_number(cell, decimal) for cell in above):
+        raise InputError(
+            f"rows have {found.width} cells, but the line above has {len(above)} names: decimal commas between commas? Write the "
+            "table with semicolons or decimal points"
+        )
 
 
 def _kept(rows: Sequence[Cells], found: TableLines, decimal: str) -> tuple[list[int], list[str]]:
@@ -57,12 +69,16 @@ def _kept(rows: Sequence[Cells], found: TableLines, decimal: str) -> tuple[list[
     # Rows without their last, empty cells belong to the table, but a torn last line holds a torn number.
     short = [k for k in after[:-1] if 2 <= len(rows[k]) < found.width and fits(rows[k], found.numeric, decimal)]
     if skipped:
-        remarks.append(f"{skipped} lines within the table are comments or a repeated header and were skipped")
+        remarks.append(f"{_lines(skipped)} within the table skipped: comments or a repeated header")
     if left := len(after) - len(short):
         remarks.append(
-            f"{left} {'line' if left == 1 else 'lines'} after the table (from line {after[-1] + 1}) not read as numbers"
+            f"{_lines(left)} after the table (from line {after[-1] + 1}) not read as numbers"
         )
     return [*kept, *short], remarks
+
+
+def _lines(count: int) -> str:
+    return f"{count} line" if count == 1 else f"{count} lines"
 
 
 def _units(row: Cells, width: int) -> list[str | None]:

@@ -16,6 +16,7 @@ MISSING_WORDS = frozenset(
         "1.#inf00", "-1.#ind", "-1.#inf", "keine", "fehler", "ungültig",
     ]
 )
+MISSING_PHRASES = frozenset({"no data", "no value", "no signal", "not available", "out of range", "kein wert"})
 INFINITE_WORDS = frozenset(["inf", "+inf", "-inf", "infinity", "+infinity", "-infinity", "∞", "+∞", "-∞"])
 _DASHES = re.compile(r"[-–—_.*?=/\s]*")
 _MINUS = str.maketrans({"−": "-", "\u00a0": " ", "\u202f": " ", "\u2009": " "})
@@ -26,18 +27,33 @@ _NUMBER = {
     )
     for sign, other in ((".", ","), (",", "."))
 }
+_BEGINNINGS = frozenset("+-.,0123456789")
 _PLAIN = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 
 
 def is_number(cell: str, decimal: str) -> bool:
     """Whether a cell is a number with this decimal sign; thousands may be separated by the other, a blank or an apostrophe."""
+    if cell[:1] in _BEGINNINGS and _is_plain(cell, decimal):
+        return True
     return bool(_NUMBER[decimal].fullmatch(cell.translate(_MINUS).strip()))
+
+
+def _is_plain(cell: str, decimal: str) -> bool:
+    """Whether a cell is a number as Python writes it, but for the decimal sign: nearly all are, and this is quick."""
+    if (decimal != "." and "." in cell) or "_" in cell or not cell.isascii():
+        return False
+    try:
+        float(cell if decimal == "." else cell.replace(decimal, "."))
+    except ValueError:
+        return False
+    return cell[-1:].isdigit() or cell[-1:] == decimal
 
 
 def is_missing(cell: str, words: Sequence[float | str] = ()) -> bool:
     """Whether a cell is empty, dashes, a known word for no value, or one of the stated `words`."""
     text = cell.strip().strip("<>[]()\"'").strip().lower()
-    return bool(_DASHES.fullmatch(text)) or text in MISSING_WORDS or text in {str(one).strip().lower() for one in words}
+    known = text in MISSING_WORDS or text in MISSING_PHRASES
+    return known or bool(_DASHES.fullmatch(text)) or text in {str(one).strip().lower() for one in words}
 
 
 def is_infinite(cell: str) -> bool:

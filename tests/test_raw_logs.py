@@ -1,0 +1,166 @@
+"""Files as loggers write them: each is read as the plain one, refused, or read with a remark; none is silently wrong."""
+
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comprope.errors import InputError
+from comprope_system.cli import main
+from comprope_system.measurements.campaign_file import CampaignFile, Channel, RunSpec, read_campaign_file
+from comprope_system.measurements.files import RawTable, read_raw_table
+from comprope_system.measurements.files.file_format import FileFormat
+from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.run_table import read_run_table
+from comprope_system.measurements.units import is_unit, split_unit, unit_named
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
+from raw_log_variants import binaries, dialects, encodings, missing, times, units
+
+HEIGHT = 50.0  # m
+LASERS = ("cw_low", "cw_mid", "car_low")
+CHANNELS = (
+    *(Channel(column=name, quantity="lateral_displacement", sensor=name, unit="mm", reference="rest") for name in LASERS),
+    Channel(column="sheave_dx", quantity="sheave_displacement", unit="mm", reference="rest"),
+    Channel(column="sheave_w", quantity="sheave_angular_velocity", unit="rad/s"),
+)
+
+
+def plain() -> pd.DataFrame:
+    """A run of 33 s at 25 Hz as a plain table, one laser blind at the end."""
+    time = np.round(np.arange(826) * 0.04, 2)
+    trip = jerk_limited(0.0, 45.0, 5.0, np.array([1.0, 2.0, 1.0, 14.0, 1.0, 2.0, 1.0]))
+    random = np.random.default_rng(5)
+    car = trip.value(time) + 5e-4 * random.standard_normal(826)
+    table = pd.DataFrame({"time": time, "car_position": car})
+    for k, name in enumerate((*LASERS, "sheave_dx")):
+        table[name] = 10.0 * np.sin((1.0 + k) * time) * (time > 5.0) + 0.2 * random.standard_normal(826)
+    table["cw_mid"] = table["cw_mid"].where(car < 40.0)
+    return table.assign(sheave_w=trip.derivative(time, 1) / 0.4).round(4)
+
+
+PLAIN = plain()
+GROUPS = (dialects, encodings, times, units, missing, binaries)
+VARIANTS = [one for group in GROUPS for one in group(PLAIN)]
+RIGHT = {"semicolon, decimal point", "tab, decimal comma", "quoted decimal commas between commas", "CR", "footer of statistics",
+         "header in a comment", "header and units repeated", "thousands separated", "encoding utf-16-le", "encoding latin-1",
+         "time: ms in brackets", "time: over midnight", "time: days of Excel", "time: comma before milliseconds, between commas",
+         "time: epoch in ns", "time: sample numbers, rate above", "car in ft, stated", "MATLAB structure", "HDF5 compound",
+         "MATLAB 7.3", "TDMS waveforms", "Parquet with time stamps", "Excel with dates"}  # fmt: skip
+
+
+def read(folder: Path, variant):
+    """The table of a variant's run."""
+    text = 'name = "x"\nmodel = "x"\n' + variant.extra
+    for one in CHANNELS:
+        sensor = f'sensor = "{one.sensor}"\n' if one.sensor else ""
+        text += f'[[channels]]\ncolumn = "{one.column}"\nquantity = "{one.quantity}"\nunit = "{one.unit}"\n{sensor}'
+    (folder / "campaign.toml").write_text(f'{text}[[runs]]\nfile = "{variant.file}"\n{variant.run_extra}\n', "utf-8")
+    campaign = read_campaign_file(folder / "campaign.toml")
+    return read_run_table(folder, campaign.runs[0], campaign, HEIGHT, folder)
+
+
+def is_plain(table, asked: str) -> bool:
+    """Whether a run is that of the plain table."""
+    if len(table.time) != len(PLAIN) or not np.allclose(table.time, PLAIN["time"], rtol=0.0, atol=1e-6):
+        return False
+    scales = {"sheave_w": 1.0}
+    same = np.allclose(table.car.value, PLAIN["car_position"], rtol=0.0, atol=1e-4)
+    for name, value in table.values.items():
+        own, true = value, PLAIN[name].to_numpy() * scales.get(name, 1e-3)
+        both = np.isfinite(own) & np.isfinite(true)
+        same &= np.allclose(own[both], true[both], rtol=1e-9, atol=1e-12)
+        same &= name == asked or np.array_equal(np.isnan(own), np.isnan(true))
+    return bool(same)
+
+
+@pytest.mark.parametrize("variant", VARIANTS, ids=lambda one: one.name)
+def test_a_file_is_read_as_the_plain_one_or_refused_or_read_with_a_remark(tmp_path, variant):
+    variant.write(tmp_path / variant.file)
+    try:
+        table = read(tmp_path, variant)
+    except InputError as error:
+        assert variant.name not in RIGHT
+        assert all(variant.file in line and len(line) < 600 and line.isprintable() for line in str(error).splitlines())
+        return
+    right = is_plain(table, variant.asked)
+    assert right or variant.name not in RIGHT
+    gap = "ten rows missing" in variant.name  # told by what looks at the record, not at the file
+    assert right or table.remarks or gap
+
+
+def test_every_variant_that_must_be_read_is_generated():
+    names = [one.name for one in VARIANTS]
+    assert set(RIGHT) <= set(names) and len(names) == len(set(names)) > 100
+
+
+def test_channels_of_two_clocks_and_two_files_are_set_on_the_clock_of_the_run(tmp_path):
+    slow = PLAIN.iloc[::3, :2].rename(columns={"time": "t"})
+    slow.assign(t=slow["t"] + 100.0).to_csv(tmp_path / "car.csv", index=False)
+    PLAIN[["time", *LASERS]].assign(time=PLAIN["time"] + 100.02).to_csv(tmp_path / "lasers.csv", index=False)
+    PLAIN[["time", "sheave_dx", "sheave_w"]].assign(time=PLAIN["time"] + 90.0).to_csv(tmp_path / "axle.csv", index=False)
+    files = dict.fromkeys(LASERS, "lasers.csv") | {"sheave_dx": "axle.csv", "sheave_w": "axle.csv"}
+    spec = RunSpec(file="car.csv", files=files, offsets={"axle.csv": 10.0})
+    campaign = CampaignFile(name="x", model="x", channels=CHANNELS, runs=(spec,))
+    table = read_run_table(tmp_path, spec, campaign, HEIGHT, tmp_path)
+    assert np.allclose(table.car.time, slow["t"]) and len(table.time) == 2 * len(PLAIN)
+    for name, late in (("cw_low", 0.02), ("sheave_w", 0.0)):
+        at = table.sampled[name]
+        assert np.allclose(table.time[at], PLAIN["time"] + late) and np.isnan(table.values[name][~at]).all()
+
+
+def test_clocks_that_cannot_be_related_are_refused(tmp_path):
+    PLAIN[["time", "car_position"]].to_csv(tmp_path / "car.csv", index=False)
+    stamped = PLAIN.assign(time=[f"09:12:{second:06.3f}" for second in PLAIN["time"]])
+    stamped.to_csv(tmp_path / "lasers.csv", index=False)
+    spec = RunSpec(file="car.csv", files={one.column: "lasers.csv" for one in CHANNELS})
+    campaign = CampaignFile(name="x", model="x", channels=CHANNELS, runs=(spec,))
+    with pytest.raises(InputError, match=r"time of day, those of the car seconds .* offsets"):
+        read_run_table(tmp_path, spec, campaign, HEIGHT, tmp_path)
+
+
+def test_files_outside_pipes_and_devices_are_refused(tmp_path):
+    folder = tmp_path / "campaign"
+    folder.mkdir()
+    PLAIN.to_csv(tmp_path / "run.csv", index=False)
+    (folder / "link.csv").symlink_to(tmp_path / "run.csv")
+    os.mkfifo(folder / "pipe.csv")
+    for path, told in (
+        (folder / "link.csv", "outside of the campaign's folder"),
+        (folder / ".." / "run.csv", "outside of the campaign's folder"),
+        (folder / "pipe.csv", "a pipe or device"), (Path("/dev/zero"), "a pipe or device"), (folder, "is a folder"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=told):
+            read_raw_table(path, FileFormat(), folder)
+    assert isinstance(read_raw_table(folder / "link.csv", FileFormat()), RawTable)
+
+
+def test_escape_characters_of_a_file_do_not_reach_the_terminal(tmp_path, capsys):
+    (tmp_path / "run.csv").write_text("time,car_\x1b[31mposition\n0,1\n1,2\n")
+    with pytest.raises(SystemExit):
+        main(["simulate", "tower50", "--car", str(tmp_path / "run.csv")])
+    assert "\x1b" not in capsys.readouterr().err
+
+
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(tmp_path, monkeypatch):
+    PLAIN.to_parquet(tmp_path / "run.parquet")
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(InputError, match=r'pip install "comprope\[formats\]"'):
+        read_raw_table(tmp_path / "run.parquet", FileFormat())
+
+
+@pytest.mark.parametrize(
+    ("name", "split"),
+    [("Time [s]", ("Time", "s")), ("y (mm)", ("y", "mm")), ("z / mm", ("z", "mm")), ("Laser 1", ("Laser 1", None)),
+     ("cw_low", ("cw_low", None)), ("a (left)", ("a (left)", None)), ("time_ms", ("time", "ms")), ("w [°/s]", ("w", "°/s"))],
+)  # fmt: skip
+def test_the_unit_in_a_name(name, split):
+    assert split_unit(name) == split
+
+
+def test_spellings_of_units():
+    assert [unit_named(one) for one in ("µm", "U/min", "m/s²", "Sek", "KN")] == ["um", "rpm", "m/s2", "s", "kN"]
+    assert [unit_named(one) for one in ("M", "MS", "°C")] == [None, None, None] and is_unit("°C")
