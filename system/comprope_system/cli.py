@@ -1,9 +1,12 @@
 """The command `comprope`: finds its subcommands and turns errors into one line each and an exit status."""
 
+import errno
 import importlib
+import io
 import os
 import pkgutil
 import sys
+from importlib import metadata
 from typing import Annotated
 
 import typer
@@ -16,18 +19,31 @@ from .commands._parameters import with_options
 from .commands._terminal import without_control_characters
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
+_STREAM_ERRORS = (errno.EPIPE, errno.ENOSPC, errno.EBADF, errno.EIO)  # closed, full, absent, broken
 # Matrices here are small: threads of the linear algebra would only wait for one another, for seconds on a busy machine.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-app = typer.Typer(add_completion=False, rich_markup_mode="markdown", pretty_exceptions_enable=False)
+app = typer.Typer(rich_markup_mode="markdown", pretty_exceptions_enable=False)
 
 
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        try:
+            typer.echo(f"comprope {metadata.version('comprope')}")
+        except metadata.PackageNotFoundError:
+            raise InputError("comprope is not installed; its version is in pyproject.toml") from None
+        raise typer.Exit
+
+
+VERSION = Annotated[bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")]
 ALLOW_CODE = Annotated[bool, typer.Option("--allow-code", help="Allow a model file to run Python files of own effects.")]
 OUTSIDE = Annotated[bool, typer.Option("--allow-outside", help="Allow a campaign to name run files outside of its folder.")]
 
 
 @app.callback(invoke_without_command=True)
-def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False, allow_outside: OUTSIDE = False) -> None:
+def _welcome(
+    context: typer.Context, allow_code: ALLOW_CODE = False, allow_outside: OUTSIDE = False, version: VERSION = False
+) -> None:
     """Lateral vibration of elevator compensation ropes: simulation, comparison with measurements, diagnosis of missing effects.
 
     First example: `comprope simulate tower50 --plot trip.png`. For MODEL.toml every command also accepts the name of a
@@ -36,6 +52,7 @@ def _welcome(context: typer.Context, allow_code: ALLOW_CODE = False, allow_outsi
     Compiled kernels and FMUs are kept in the folder that the environment variable COMPROPE_CACHE names, by default the user's
     cache folder (`~/.cache/comprope`); to empty the cache, delete it.
     """
+    del version  # printed by its callback
     context.with_resource(consent.giving(allow_code))
     context.with_resource(consent.giving(allow_outside, consent.OUTSIDE))
     if context.invoked_subcommand is None:
@@ -66,11 +83,25 @@ _register()
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit: 0 done, 2 bad input, 1 anything else; errors are lines on standard error."""
     try:
+        _prepare_streams()
         status = app(arguments, prog_name="comprope", standalone_mode=False)
+        sys.stdout.flush()
+    except SystemExit as stop:  # the end of shell completion, or typer's answer to a closed pipe
+        status = stop.code
     except Exception as error:
         status, text = _explained(error)
-        sys.stderr.write("".join(f"{without_control_characters(line)}\n" for line in text.splitlines()))
+        if sys.stderr is not None:
+            sys.stderr.write("".join(f"{without_control_characters(line)}\n" for line in text.splitlines()))
     sys.exit(status or DONE)
+
+
+def _prepare_streams() -> None:
+    """Print a question mark for a character that the terminal's encoding lacks; raises `OSError` without standard output."""
+    if sys.stdout is None:
+        raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
 
 
 def _explained(error: Exception) -> tuple[int, str]:
@@ -79,6 +110,10 @@ def _explained(error: Exception) -> tuple[int, str]:
         return BAD_INPUT, str(error)
     if isinstance(error, CompropeError):
         return FAILED, str(error)
+    if isinstance(error, OSError) and error.filename is None and error.errno in _STREAM_ERRORS:
+        # What is left in the buffer would fail once more when Python ends.
+        sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115
+        return FAILED, f"standard output: cannot be written: {error.strerror}"
     if isinstance(error, typer.Abort):
         return FAILED, "stopped"
     if hasattr(error, "format_message"):  # typer's and click's errors in options and arguments

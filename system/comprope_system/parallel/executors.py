@@ -3,9 +3,12 @@
 import importlib
 import multiprocessing
 import os
+import signal
+import threading
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection
 
 from comprope.errors import InputError, SimulationError
 
@@ -14,9 +17,7 @@ WAIT = 10  # s to wait for a cluster
 
 
 @contextmanager
-def workers(
-    jobs: int | None = None, executor: Executor | str | None = None, *, fresh: bool = False
-) -> Iterator[Executor | None]:
+def workers(jobs: int | None = None, executor: Executor | str | None = None, *, fresh: bool = False) -> Iterator[Executor | None]:
     """An executor of concurrent.futures: the one given, a Dask cluster's by its address dask://HOST:PORT, or `jobs` processes.
 
     By default there is one process per core; with `jobs` 1 there is no executor, and a sweep runs in this
@@ -34,11 +35,33 @@ def workers(
         # Each worker has a core to itself: threads of its linear algebra would only wait for one another.
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         # A fresh interpreter for each worker: forking one that has threads (a progress bar's) is not safe.
-        pool = ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn"))
+        spawn = multiprocessing.get_context("spawn")
+        reader, writer = spawn.Pipe(duplex=False)
+        pool = ProcessPoolExecutor(count, mp_context=spawn, initializer=_end_with_parent, initargs=(reader,))
         try:
             yield pool
+        except BaseException:  # such as Ctrl-C: nobody waits for what is still being computed
+            writer.close()
+            raise
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
+            writer.close()
+            reader.close()
+
+
+def _end_with_parent(reader: Connection) -> None:
+    """End this process as soon as the other end of the pipe is closed, which also happens when its owner is killed.
+
+    Ctrl-C, which a terminal sends to all processes, is left to that owner.
+    """
+
+    def wait() -> None:
+        with suppress(EOFError, OSError):
+            reader.recv_bytes()
+        os._exit(1)
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=wait, daemon=True).start()
 
 
 @contextmanager
