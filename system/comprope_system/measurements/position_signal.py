@@ -25,6 +25,7 @@ DEGREES = (1, 2, 3)  # of polynomials through neighbours on one side: constant s
 IMPACT = 5.0  # m/s; largest change of the speed within a sampling interval, that of a counterweight that falls back a metre
 LARGEST_WEIGHTS = 20.0  # root sum of squares of an extrapolation's weights, beyond which it says nothing
 REACH = 5  # samples on either side that are looked at; a longer excursion than this is not recognised
+CHUNK = 100_000  # samples looked at together, which bounds the memory
 ROUNDS = 4  # of leaving out: a sample beside a failure is judged better without it
 
 
@@ -133,13 +134,22 @@ def spikes(time: Floats, position: Floats, noise: float, rounded: bool = False) 
     A kink or a jump of the acceleration continues from one side at least. In a `rounded` signal without noise an impact that
     ends between two samples shows too, so that only what exceeds it is a failure.
     """
+    found = []
+    for start in range(0, len(time), CHUNK):
+        before = min(start, 4 * REACH)
+        part = slice(start - before, start + CHUNK + 4 * REACH)
+        found.append(_spikes(time[part], position[part], noise, rounded)[before : before + CHUNK])
+    return np.concatenate(found)
+
+
+def _spikes(time: Floats, position: Floats, noise: float, rounded: bool) -> Mask:
     interval = float(np.median(np.diff(time)))
     least = IMPACT * interval if rounded else 0.0
     good = ~_far_away(time, position, noise)
     for _ in range(ROUNDS):
         at = np.flatnonzero(good)
         t, x = time[at], position[at]
-        suspect = distance_to_neighbours(t, x) > SUSPECT * noise
+        suspect = (distance_to_neighbours(t, x) > SUSPECT * noise) & _off_cubic(t, x, noise)
         found = [k for k in np.flatnonzero(suspect) if _continues_neither(t, x, int(k), noise, (interval, least))]
         if not found:
             break
@@ -153,6 +163,20 @@ def _far_away(time: Floats, position: Floats, noise: float) -> Mask:
     reach = np.maximum(time[np.minimum(index + REACH, last)] - time, time - time[np.maximum(index - REACH, 0)])
     middle = median_filter(position, 2 * REACH + 1, mode="nearest")
     return np.asarray(np.abs(position - middle) > TOP_SPEED * reach + SUSPECT * noise)
+
+
+def _off_cubic(time: Floats, position: Floats, noise: float) -> Mask:
+    """Samples far from the cubic through two neighbours on either side: unlike a line, it follows an accelerated motion."""
+    off = np.ones(len(time), bool)
+    near, offsets = slice(2, -2), (-2, -1, 1, 2)
+    nodes = [np.roll(time, -j)[near] for j in offsets]
+    reached, squares = np.zeros(max(len(time) - 4, 0)), np.ones(max(len(time) - 4, 0))
+    for j, node in zip(offsets, nodes, strict=True):
+        others = [other for other in nodes if other is not node]
+        weight = np.prod([(time[near] - other) / (node - other) for other in others], axis=0)
+        reached, squares = reached + weight * np.roll(position, -j)[near], squares + weight**2
+    off[near] = np.abs(position[near] - reached) > SURE * noise * np.sqrt(squares)
+    return off
 
 
 def _continues_neither(time: Floats, position: Floats, k: int, noise: float, scale: tuple[float, float]) -> bool:

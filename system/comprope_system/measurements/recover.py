@@ -26,6 +26,7 @@ Motion = Literal["auto", "exact"]
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
 MARGIN = 1.0  # s before and after a motion is seen beyond the noise, within which it may have begun and ended
+LONGEST_REST = 20.0  # s of a rest that take part in the recovery of the motion before or after it; the rest of it adds nothing
 MOST_LEFT_OUT = 0.01  # share of samples left out as failures of the sensor without a remark
 
 
@@ -54,17 +55,15 @@ def _recovered(signal: Signal, good: NDArray[np.bool_], motion: Motion) -> Trip:
     whole = spans[0][0], spans[-1][1]
     if motion == "exact":
         return _exact(signal.of(good), whole, "")
-    if len(spans) == 1:
-        return _one(signal, good, whole)
-    # A window reaches from the end of the motion before to the beginning of the next.
-    limits = [-np.inf, *(0.5 * (one[1] + other[0]) for one, other in pairwise(spans)), np.inf]
-    windows = [(-np.inf, spans[1][0]), *((spans[k - 1][1], spans[k + 1][0]) for k in range(1, len(spans) - 1))]
-    windows.append((spans[-2][1], np.inf))
+    # A window reaches from the end of the motion before to the beginning of the next, or some seconds into a long rest.
+    begins = [-np.inf, *(stop for _, stop in spans[:-1])]
+    ends = [*(start for start, _ in spans[1:]), np.inf]
     trips = []
-    for (begin, end), span in zip(windows, spans, strict=True):
-        inside = (signal.time >= begin) & (signal.time <= end)
+    for begin, span, end in zip(begins, spans, ends, strict=True):
+        inside = (signal.time >= max(begin, span[0] - LONGEST_REST)) & (signal.time <= min(end, span[1] + LONGEST_REST))
         trips.append(_one(signal.of(inside), good[inside], span))
-    joined = _joined(trips, limits[1:-1], signal.of(good))
+    middles = [0.5 * (one[1] + other[0]) for one, other in pairwise(spans)]
+    joined = _joined(trips, middles, signal.of(good)) if len(trips) > 1 else trips[0]
     return _checked(joined, signal.of(good), whole)
 
 
