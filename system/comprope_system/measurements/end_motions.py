@@ -126,6 +126,6 @@ def _beside(signal: MotionSignal, car: Trip, height: float) -> Trip:
 
 def _constant(signal: Signal) -> float | None:
     """The level [m] of a signal that is constant within its noise, failures of the sensor aside; None for others."""
-    good = signal.of(~spikes(signal.time, signal.position, signal.noise, signal.rounded))
+    good = signal.of(~spikes(signal))
     level = float(np.median(good.position))
     return level if excess(good, np.full(len(good.time), level)).max() <= 1.0 else None

@@ -38,7 +38,7 @@ def integrate(time: Floats, values: Floats, times: int) -> Integrated:
     Raises `InputError` for a record that does not begin at rest, or values that no elevator reaches.
     """
     measured = prepare(time, values)
-    measured = measured.of(~spikes(measured.time, measured.position, measured.noise))
+    measured = measured.of(~spikes(measured))
     largest, limit = float(np.abs(measured.position).max()), {1: TOP_SPEED, 2: LARGEST_ACCELERATION}[times]
     if largest > limit:
         raise InputError(f"{largest:.4g} {UNITS[times]}: at most {limit:g} {UNITS[times]} is accepted; check its unit")
@@ -57,7 +57,7 @@ def integrate(time: Floats, values: Floats, times: int) -> Integrated:
     if after.any() and abs(float(np.mean(rate[after]))) <= LARGEST_OFFSET[1]:
         rate[after] = 0.0
     noise = max(walk, measured.noise * step)
-    return Integrated(Signal(t, cumulative_trapezoid(rate, t, initial=0.0), noise, 0.0), noise)
+    return Integrated(Signal(t, cumulative_trapezoid(rate, t, initial=0.0), noise, 0.0, np.full(len(t), noise)), noise)
 
 
 def _speed(time: Floats, acceleration: Floats, after: NDArray[np.bool_], walk: float) -> tuple[Floats, float]:

@@ -26,12 +26,17 @@ def excess(signal: Signal, position: Floats, rounding: float = ROUNDING) -> Floa
         return np.asarray(np.abs(residual) / least)
     worst = np.zeros(len(residual))
     for count in (one for one in WINDOWS if one <= len(residual)):
-        sums = np.cumsum(np.concatenate(([0.0], residual)))
-        means = np.abs(sums[count:] - sums[:-count]) / count
-        white = signal.noise / count**0.5
-        usual = float(np.clip(1.4826 * np.median(means), white, TYPICAL * white))
-        allowed = max(SURE * usual, least)
+        means = np.abs(_means(residual, count))
+        white = np.sqrt(_means(signal.local_noise**2, count) / count)
+        usual = float(np.clip(1.4826 * np.median(means / white), 1.0, TYPICAL))
+        over = means / np.maximum(SURE * usual * white, least)
         for shift in range(count):
-            part = worst[shift : shift + len(means)]
-            np.maximum(part, means / allowed, out=part)
+            part = worst[shift : shift + len(over)]
+            np.maximum(part, over, out=part)
     return worst
+
+
+def _means(values: Floats, count: int) -> Floats:
+    """Means (n - count + 1,) of `count` successive values."""
+    sums = np.cumsum(np.concatenate(([0.0], values)))
+    return np.asarray((sums[count:] - sums[:-count]) / count)

@@ -3,12 +3,16 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from .local_misfit import TYPICAL
 from .position_signal import Signal
 
 BLOCK = 0.2  # s over which positions are averaged
 FEWEST_IN_BLOCK = 4  # samples
 SLOW = 5  # blocks over which creeping shows that is too slow to show from one block to the next
 SURE = 6.0  # standard errors of a difference that noise does not reach
+MEDIAN = 1.25  # standard deviation of a median over that of a mean
+AT_REST = 0.1  # quantile of the changes from block to block at which the car rests, in a record with a fifth of its time at rest
+HALF_OF_REST = 0.6745  # median of the absolute value of a normally distributed change, in standard deviations
 LEVEL = 0.05  # s over which the level at rest is taken
 SHORTEST_REST = 1.0  # s; a shorter stop belongs to the motion
 
@@ -21,7 +25,7 @@ def motion_spans(signal: Signal) -> list[tuple[float, float]]:
     _, at = np.unique(place, return_index=True)
     count = np.diff(np.append(at, len(time)))
     mean = np.array([np.median(part) for part in np.split(signal.position, at[1:])])
-    error = 1.25 * signal.noise / np.sqrt(count)  # of a median
+    error = _error(signal, mean, count)
     moving = _moving(mean, error, signal.resolution)
     edges = np.append(time[at], time[-1])
     spans: list[tuple[float, float]] = []
@@ -32,6 +36,16 @@ def motion_spans(signal: Signal) -> list[tuple[float, float]]:
             start = spans.pop()[0]
         spans.append((start, stop))
     return spans
+
+
+def _error(signal: Signal, mean: NDArray[np.float64], count: NDArray[np.int_]) -> NDArray[np.float64]:
+    """Standard deviation (n,) [m] of each block's position, from the noise or from blocks at rest if the noise is correlated."""
+    white = MEDIAN * signal.noise / np.sqrt(count)
+    if signal.rounded or len(mean) < 2:
+        return white
+    changes = np.abs(np.diff(mean)) / np.hypot(white[1:], white[:-1])
+    usual = float(np.quantile(changes, AT_REST)) / HALF_OF_REST
+    return white * float(np.clip(usual, 1.0, TYPICAL))
 
 
 def _departure(signal: Signal, rest: float, moving: float, direction: int = 1) -> float:

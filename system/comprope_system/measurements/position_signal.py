@@ -1,6 +1,6 @@
 """A position signal made ready for recovery: its noise and resolution, held samples, spikes, and dense sampling averaged."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,10 @@ BIN = 8e-3  # s; denser sampling is averaged to this interval, a fifth of the kn
 TOP_SPEED = 25.0  # m/s; the highest rated speed that the drive accepts: no car moves faster
 DIGITS = 9  # decimal digits [m] of a value that matter
 COARSEST = 0.05  # m; a signal of larger steps, such as the number of a landing, shows no motion
-HELD = 1.5  # mean number of equal samples in a moving signal from which on its values are held by a slower device
+HELD = 1.5  # median number of equal samples in a moving signal from which on its values are held by a slower device
+LONG_HOLD = 10.0  # median holds; a value repeated for longer is that of a car at rest
+LOCAL = 31  # samples over which the noise is local
+JERK = 2.0  # m/s3; a sampling interval at which it matters is too long to tell failures from motion
 SUSPECT = 8.0  # noise standard deviations from the neighbours, beyond which a sample is looked at
 SURE = 5.0  # standard deviations from an extrapolation of the neighbours on one side, within which a sample continues them
 DEGREES = (1, 2, 3)  # of polynomials through neighbours on one side: constant speed, acceleration and jerk
@@ -33,18 +36,20 @@ ROUNDS = 4  # of leaving out: a sample beside a failure is judged better without
 class Signal:
     """Positions (n,) [m] at increasing times (n,) [s], all finite; standard deviation of the noise and resolution [m].
 
-    `held` is the interval [s] between new values of a signal that repeats them, 0 for others.
+    `local_noise` (n,) [m] is above `noise` where the signal is noisier for a while, as by uncertain times of a fast car. `held`
+    is the interval [s] between new values of a signal that repeats them, 0 for others.
     """
 
     time: Floats
     position: Floats
     noise: float
     resolution: float
+    local_noise: Floats
     held: float = 0.0
 
     def of(self, mask: Mask | slice) -> "Signal":
         """Some of the samples."""
-        return Signal(self.time[mask], self.position[mask], self.noise, self.resolution, self.held)
+        return Signal(self.time[mask], self.position[mask], self.noise, self.resolution, self.local_noise[mask], self.held)
 
     @property
     def rounded(self) -> bool:
@@ -74,8 +79,25 @@ def prepare(time: Floats, position: Floats, step: float | None = None) -> Signal
     step = resolution(x) if step is None else step
     t, x, held = _without_repetitions(t, x, step)
     if np.median(np.diff(t)) < 0.5 * BIN:
-        t, x = _averaged(t, x, spikes(t, x, noise(t, x, step), _only_rounding(noise(t, x, step), step)))
-    return Signal(t, x, noise(t, x, step), step, held)
+        dense = _signal(t, x, step)
+        t, x = _averaged(t, x, spikes(dense))
+    return replace(_signal(t, x, step), held=held)
+
+
+def _signal(time: Floats, position: Floats, step: float) -> Signal:
+    size = noise(time, position, step)
+    return Signal(time, position, size, step, np.maximum(size, _local_noise(time, position)))
+
+
+def _local_noise(time: Floats, position: Floats) -> Floats:
+    """Standard deviation [m] of the noise around each sample (n,), from third differences; a short event does not show."""
+    count = len(time) - 3
+    times, values = (np.lib.stride_tricks.sliding_window_view(one, 4) for one in (time, position))
+    third, squares = np.zeros(count), np.zeros(count)
+    for j in range(4):
+        weight = 1.0 / np.prod([times[:, j] - times[:, m] for m in range(4) if m != j], axis=0)
+        third, squares = third + weight * (values[:, j] - values[:, 0]), squares + weight**2
+    return np.pad(1.4826 * median_filter(np.abs(third) / np.sqrt(squares), LOCAL, mode="nearest"), (1, 2), mode="edge")
 
 
 def _only_rounding(noise: float, resolution: float) -> bool:
@@ -121,43 +143,43 @@ def _without_repetitions(time: Floats, position: Floats, step: float) -> tuple[F
     length = np.diff(np.append(first, len(position)))
     jumps = np.abs(np.diff(position[first])) > 3.5 * step
     inner = length[1:-1][jumps[:-1] & jumps[1:]]
-    if len(inner) < FEWEST // 2 or (count := float(np.median(inner))) < HELD or np.mean(inner >= HELD) < 0.8:
+    if len(inner) < FEWEST // 2 or (count := float(np.median(inner))) < HELD:
         return time, position, 0.0
     since = np.arange(len(position)) - np.repeat(first, length)
-    kept = since % round(count) == 0
+    rests = np.repeat(length, length) > LONG_HOLD * count
+    kept = (since == 0) | (rests & (since % round(count) == 0))
     return time[kept], position[kept], float(np.median(np.diff(time))) * round(count)
 
 
-def spikes(time: Floats, position: Floats, noise: float, rounded: bool = False) -> Mask:
+def spikes(signal: Signal) -> Mask:
     """Samples that continue the motion neither from the left nor from the right: failures of the sensor, no motion.
 
-    A kink or a jump of the acceleration continues from one side at least. In a `rounded` signal without noise an impact that
-    ends between two samples shows too, so that only what exceeds it is a failure.
+    A kink or a jump of the acceleration continues from one side at least. In a signal without noise an impact that ends
+    between two samples shows too, so that only what exceeds it is a failure.
     """
     found = []
-    for start in range(0, len(time), CHUNK):
+    for start in range(0, len(signal.time), CHUNK):
         before = min(start, 4 * REACH)
-        part = slice(start - before, start + CHUNK + 4 * REACH)
-        found.append(_spikes(time[part], position[part], noise, rounded)[before : before + CHUNK])
+        found.append(_spikes(signal.of(slice(start - before, start + CHUNK + 4 * REACH)))[before : before + CHUNK])
     return np.concatenate(found)
 
 
-def _spikes(time: Floats, position: Floats, noise: float, rounded: bool) -> Mask:
-    interval = float(np.median(np.diff(time)))
-    least = IMPACT * interval if rounded else 0.0
+def _spikes(signal: Signal) -> Mask:
+    time, position, noise, interval = signal.time, signal.position, signal.local_noise, signal.interval
+    least = max(IMPACT * interval if signal.rounded else 0.0, JERK * interval**3)
     good = ~_far_away(time, position, noise)
     for _ in range(ROUNDS):
         at = np.flatnonzero(good)
-        t, x = time[at], position[at]
-        suspect = (distance_to_neighbours(t, x) > SUSPECT * noise) & _off_cubic(t, x, noise)
-        found = [k for k in np.flatnonzero(suspect) if _continues_neither(t, x, int(k), noise, (interval, least))]
+        t, x, s = time[at], position[at], noise[at]
+        suspect = (distance_to_neighbours(t, x) > SUSPECT * s) & _off_cubic(t, x, s)
+        found = [k for k in np.flatnonzero(suspect) if _continues_neither(t, x, int(k), float(s[k]), (interval, least))]
         if not found:
             break
         good[at[found]] = False
     return ~good
 
 
-def _far_away(time: Floats, position: Floats, noise: float) -> Mask:
+def _far_away(time: Floats, position: Floats, noise: Floats) -> Mask:
     """Samples farther from the median of their neighbours than any car travels meanwhile."""
     index, last = np.arange(len(time)), len(time) - 1
     reach = np.maximum(time[np.minimum(index + REACH, last)] - time, time - time[np.maximum(index - REACH, 0)])
@@ -165,7 +187,7 @@ def _far_away(time: Floats, position: Floats, noise: float) -> Mask:
     return np.asarray(np.abs(position - middle) > TOP_SPEED * reach + SUSPECT * noise)
 
 
-def _off_cubic(time: Floats, position: Floats, noise: float) -> Mask:
+def _off_cubic(time: Floats, position: Floats, noise: Floats) -> Mask:
     """Samples far from the cubic through two neighbours on either side: unlike a line, it follows an accelerated motion."""
     off = np.ones(len(time), bool)
     near, offsets = slice(2, -2), (-2, -1, 1, 2)
@@ -175,7 +197,7 @@ def _off_cubic(time: Floats, position: Floats, noise: float) -> Mask:
         others = [other for other in nodes if other is not node]
         weight = np.prod([(time[near] - other) / (node - other) for other in others], axis=0)
         reached, squares = reached + weight * np.roll(position, -j)[near], squares + weight**2
-    off[near] = np.abs(position[near] - reached) > SURE * noise * np.sqrt(squares)
+    off[near] = np.abs(position[near] - reached) > SURE * noise[near] * np.sqrt(squares)
     return off
 
 
@@ -243,7 +265,7 @@ def no_motion(signal: Signal, left_out: Mask) -> str | None:
         return f"position changes in steps of {signal.resolution:.4g} m: at most {COARSEST:g} m is accepted"
     t, x = signal.time[~left_out], signal.position[~left_out]
     steps, times = np.abs(np.diff(x)), np.diff(t)
-    excess = steps - TOP_SPEED * times - 10.0 * signal.noise - signal.resolution
+    excess = steps - TOP_SPEED * times - 10.0 * signal.local_noise[~left_out][1:] - signal.resolution
     worst = int(np.argmax(excess))
     if excess[worst] <= 0.0:
         return None

@@ -27,6 +27,10 @@ MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
 MARGIN = 1.0  # s before and after a motion is seen beyond the noise, within which it may have begun and ended
 LONGEST_REST = 20.0  # s of a rest that take part in the recovery of the motion before or after it; the rest of it adds nothing
+ROUNDS, MOST_SINGLE = 4, 0.05  # of leaving out the worst sample of each run of misses; share of samples that may go
+OUTSTANDING = 3.0  # times the misfit of its neighbours by which a failed sample misses
+TOO_MANY = 0.1  # share of samples left out beyond which the rest is not believed either
+FAST = 50.0  # m/s2; beyond a safety gear's deceleration, so that an impact or a failure of the sensor is worth a remark
 MOST_LEFT_OUT = 0.01  # share of samples left out as failures of the sensor without a remark
 
 
@@ -41,11 +45,14 @@ def recover_trip(time: ArrayLike, position: ArrayLike, motion: Motion = "auto") 
 
 def recover_signal(signal: Signal, motion: Motion = "auto") -> Trip:
     """The motion behind a prepared signal; see `recover_trip`."""
-    left_out = spikes(signal.time, signal.position, signal.noise, signal.rounded)
+    left_out = spikes(signal)
+    if left_out.mean() > TOO_MANY:
+        share = f"{100.0 * left_out.mean():.2g} % of the samples continue no motion"
+        raise InputError(f"position: {share}; at most {100.0 * TOO_MANY:g} % is accepted")
     if sentence := no_motion(signal, left_out):
         raise InputError(sentence)
     trip = _recovered(signal, ~left_out, motion)
-    return replace(trip, remarks=(*_of_signal(signal, left_out), *trip.remarks))
+    return replace(trip, remarks=tuple(dict.fromkeys((*_of_signal(signal, left_out), *trip.remarks))))
 
 
 def _recovered(signal: Signal, good: NDArray[np.bool_], motion: Motion) -> Trip:
@@ -83,10 +90,9 @@ def _checked(trip: Trip, signal: Signal, span: tuple[float, float]) -> Trip:
     over = excess(signal, trip.position(signal.time))
     if over.max() <= 1.0:
         return trip
-    single = _single(over > 1.0, residual)
-    others = signal.of(~single)
-    if single.mean() <= MOST_LEFT_OUT and excess(others, trip.position(others.time)).max() <= 1.0:
-        size = f"up to {1e3 * residual[single].max():.3g} mm from a smooth trip"
+    single = _single(trip, signal, residual)
+    if single is not None:
+        size = f"up to {1e3 * residual[single].max():.3g} mm from the recovered motion"
         return replace(trip, remarks=(*trip.remarks, f"{single.sum()} single samples are left out, {size}"))
     worst = int(np.argmax(residual * (over > 1.0)))
     miss = 1e3 * float(residual[worst])
@@ -95,13 +101,28 @@ def _checked(trip: Trip, signal: Signal, span: tuple[float, float]) -> Trip:
     return _exact(signal, span, f"{by} (noise {1e3 * signal.noise:.2g} mm); the motion is taken as it is")
 
 
-def _single(misses: NDArray[np.bool_], residual: Floats) -> NDArray[np.bool_]:
-    """The largest residual of each run of samples that miss: where this is all, one sample has failed."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], misses.astype(np.int8), [0])))).reshape(-1, 2)
-    found = np.zeros(len(misses), bool)
-    for first, after in edges:
-        found[first + int(np.argmax(residual[first:after]))] = True
-    return found
+def _single(trip: Trip, signal: Signal, residual: Floats) -> NDArray[np.bool_] | None:
+    """Single samples without which the trip fits: failures of the sensor; None if a few of them are not all that misses."""
+    good = np.ones(len(residual), bool)
+    for _ in range(ROUNDS):
+        kept = signal.of(good)
+        misses = excess(kept, trip.position(kept.time)) > 1.0
+        if not misses.any():
+            return ~good if _stand_out(~good, residual) else None
+        edges = np.flatnonzero(np.diff(np.concatenate(([0], misses.astype(np.int8), [0])))).reshape(-1, 2)
+        at = np.flatnonzero(good)
+        good[[at[first + int(np.argmax(residual[at[first:after]]))] for first, after in edges]] = False
+        if np.mean(~good) > MOST_SINGLE:
+            break
+    return None
+
+
+def _stand_out(left_out: NDArray[np.bool_], residual: Floats) -> bool:
+    """Whether samples left out are far off beside their neighbours: those of a motion that is missed are not."""
+    kept, out = np.flatnonzero(~left_out), np.flatnonzero(left_out)
+    after = np.searchsorted(kept, out)
+    beside = np.maximum(residual[kept[np.maximum(after - 1, 0)]], residual[kept[np.minimum(after, len(kept) - 1)]])
+    return bool(np.all(residual[out] > OUTSTANDING * beside))
 
 
 def _exact(signal: Signal, span: tuple[float, float], remark: str) -> Trip:
@@ -119,6 +140,9 @@ def _exact(signal: Signal, span: tuple[float, float], remark: str) -> Trip:
         worst = int(np.argmax(np.abs(residual) * (over > 1.0)))
         where = f"at time = {signal.time[worst]:.4g} s"
         remarks.append(f"the recovered motion misses the measured position by {1e3 * abs(residual[worst]):.3g} mm {where}")
+    fastest = float(np.abs(piece.derivative(signal.time, 2)).max())
+    if fastest > FAST:
+        remarks.append(f"the motion reaches {fastest:.3g} m/s2: an impact, or a failure of the sensor")
     if not departs:
         remarks.append("the record begins under way")
     if not arrives:
