@@ -22,7 +22,7 @@ all steps, 0 where it is unknown. `executor` is any executor of `concurrent.futu
 In JSON, `misfit_per_datum`, `chi_square_per_sample`, `clues`, `bought` and `pruned` are older names of `reduced_chi_square`,
 `residual_correlations`, `error_reductions` and `removed`; both are written in this version.
 """
-NAMES = ("simulate", "modes", "check", "compare", "diagnose", "add", "improve", "tune", "design")
+NAMES = ("simulate", "modes", "new", "check", "compare", "diagnose", "add", "improve", "tune", "design")
 OPTIONS = ("CarMotion", "TuningOptions", "DesignOptions", "BuildingSway")
 
 

@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .campaign_setup.workflow import new
     from .fmu_export.workflow import fmu
     from .identification.workflow import add, check, compare, diagnose, improve
     from .modal.workflow import modes
@@ -24,9 +25,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BuildingSway", "CarMotion", "DesignOptions", "TuningOptions",
-    "add", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "simulate", "tune",
+    "add", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "new", "simulate", "tune",
 ]  # fmt: skip
 _MODULES = {
+    "campaign_setup": ("new",),
     "fmu_export": ("fmu",),
     "identification": ("add", "check", "compare", "diagnose", "improve"),
     "modal": ("modes",),

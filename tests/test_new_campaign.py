@@ -1,0 +1,114 @@
+"""`comprope new`: raw logger files become a campaign that can be read, and nothing is replaced."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import comprope_system
+from comprope.errors import InputError
+from comprope.rope.model_file import dump
+from comprope_system.cli import main
+from comprope_system.measurements.campaign_file import read_campaign_file
+from comprope_system.measurements.jerk_limited_profile import jerk_limited
+
+from .virtual_elevator import END, MODEL, PHASES, SAMPLING
+
+TIME = np.arange(0.0, END, SAMPLING)
+
+
+def raw(start: float, way: float, seed: int) -> pd.DataFrame:
+    """A run as a logger might have written it, with names of its own and the sheave turning the other way round."""
+    random = np.random.default_rng(seed)
+    trip = jerk_limited(start, way, 1.0, PHASES)
+    noise = random.standard_normal((5, len(TIME)))
+    swinging = 10.0 * np.sin(2.0 * TIME) * (TIME > 1.0)
+    return pd.DataFrame({
+        "Zeit [ms]": 1e3 * TIME, "Kabinenposition [mm]": 1e3 * (trip.value(TIME) + 5e-4 * noise[0]),
+        "Laser GG unten [mm]": swinging + 0.3 * noise[1], "Laser Kabine [mm]": swinging + 0.3 * noise[2],
+        "Scheibe Weg (mm)": 0.1 * swinging + 0.05 * noise[3],
+        "Drehzahl [U/min]": -trip.derivative(TIME, 1) / MODEL.sheave.radius * 30.0 / np.pi + 0.1 * noise[4],
+        "Temperatur [°C]": 21.0 + 0.01 * noise[4], "Status": "OK",
+    })  # fmt: skip
+
+
+@pytest.fixture
+def files(tmp_path):
+    """Two raw files, one with semicolons and decimal commas in Latin-1, and a model."""
+    folder = tmp_path / "raw"
+    folder.mkdir()
+    raw(2.0, 9.0, 1).to_csv(folder / "up.csv", index=False, float_format="%.4f")
+    raw(11.0, -5.0, 2).to_csv(folder / "down.csv", index=False, sep=";", decimal=",", encoding="latin-1", float_format="%.4f")
+    dump(MODEL, folder / "elevator.toml")
+    return [folder / "up.csv", folder / "down.csv"]
+
+
+def test_raw_files_become_a_campaign_that_can_be_read(tmp_path, files, capsys):
+    folder = tmp_path / "campaign"
+    with pytest.raises(SystemExit) as ended:
+        main(["new", str(folder), *map(str, files), "--model", str(files[0].parent / "elevator.toml"), "--yes",
+              "--json", str(tmp_path / "new.json")])  # fmt: skip
+    assert ended.value.code == 0, capsys.readouterr().err
+    written = read_campaign_file(folder / "campaign.toml")
+    found = {one.column: (one.quantity, one.sensor, one.unit, one.sign) for one in written.channels}
+    assert found == {
+        "Laser GG unten [mm]": ("lateral_displacement", "cw_low", "mm", 1),
+        "Laser Kabine [mm]": ("lateral_displacement", "car_low", "mm", 1),
+        "Scheibe Weg (mm)": ("sheave_displacement", None, "mm", 1),
+        "Drehzahl [U/min]": ("sheave_angular_velocity", None, "rpm", -1),
+    }
+    assert written.channels[0].noise == pytest.approx(0.3, rel=0.3)
+    assert {one.file: one.role for one in written.runs} == {"up.csv": "fit", "down.csv": "validate"}
+    assert sorted(one.name for one in folder.iterdir()) == ["campaign.toml", "down.csv", "elevator.toml", "up.csv"]
+    run = comprope_system.check(folder).runs[1].run
+    assert run.trip.position(END) == pytest.approx(6.0, abs=0.01)
+    assert np.corrcoef(run.values["Drehzahl [U/min]"], run.trip.velocity(run.time))[0, 1] > 0.99
+    told = json.loads((tmp_path / "new.json").read_text())
+    assert {key: told["columns"][-1][key] for key in ("column", "quantity")} == {"column": "Temperatur [°C]", "quantity": None}
+
+
+def test_nothing_is_replaced(tmp_path, files):
+    folder = tmp_path / "campaign"
+    comprope_system.new(folder, files, model=MODEL)
+    before = {path: path.read_bytes() for path in folder.iterdir()}
+    with pytest.raises(InputError, match="exists and is not replaced"):
+        comprope_system.new(folder, files, model=MODEL)
+    (folder / "campaign.toml").unlink()
+    (folder / "up.csv").write_text("other")
+    with pytest.raises(InputError, match="exists"):
+        comprope_system.new(folder, files, model=files[0].parent / "elevator.toml")
+    assert (folder / "up.csv").read_text() == "other" and before
+
+
+def test_a_column_that_was_guessed_is_asked_for_and_others_are_not(tmp_path, files):
+    table = pd.read_csv(files[0]).rename(columns={"Laser Kabine [mm]": "ch7", "Kabinenposition [mm]": "ch1"})
+    table["ch1"] *= 1e-3
+    table.to_csv(files[0], index=False)
+    asked = []
+
+    def ask(question: str, default: str) -> str:
+        asked.append((question.split(":")[0], default))
+        return {"ch7": "lateral_displacement car_low mm", "up.csv": "70"}[question.split(":")[0]]
+
+    result = comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL, ask=ask)
+    assert asked == [("ch7", "-"), ("up.csv", "120")]
+    written = read_campaign_file(tmp_path / "campaign" / "campaign.toml")
+    assert written.car.column == "ch1" and written.runs[0].set == {"sheave.mass": 70.0}
+    assert any(one.column == "ch7" and one.sensor == "car_low" for one in written.channels)
+    assert result.check.problems == ()
+
+
+def test_an_answer_that_is_none_and_files_that_are_none_are_refused(tmp_path, files):
+    with pytest.raises(InputError, match="no files"):
+        comprope_system.new(tmp_path / "a", [])
+    with pytest.raises(InputError, match="a pipe or device"):
+        comprope_system.new(tmp_path / "a", [Path("/dev/zero")])
+    assert not (tmp_path / "a").exists()
+    files[0].write_text("a,b\n1,2\n2,3\n")
+    with pytest.raises(InputError, match="which column is the position of the car"):
+        comprope_system.new(tmp_path / "b", files[:1], model=MODEL)
+    with pytest.raises(InputError, match="a number of kilograms is accepted"):
+        comprope_system.new(tmp_path / "c", files[1:], model=MODEL, ask=lambda question, default: "heavy")
+    assert not (tmp_path / "c" / "campaign.toml").exists()
