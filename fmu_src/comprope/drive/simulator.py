@@ -40,8 +40,8 @@ class DriveSimulator:
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
         """Advance from `time` to `time + dt` [s] with inputs held.
 
-        The equilibrium at the start is that with the first tensions that are not zero, as long as nothing has moved: not every
-        importer propagates tensions during initialization. Raises `InputError` for a destination outside the shaft, a
+        The equilibrium at the start is that with the first tensions that are not zero: not every importer propagates tensions
+        during initialization, and no rope is without. Raises `InputError` for a destination outside the shaft, a
         tension that is not finite or a motor too weak to hold the car, `SimulationError` when it cannot keep it in the shaft.
         """
         found = input_problems(self._drive, inputs)
@@ -49,7 +49,7 @@ class DriveSimulator:
             raise InputError("; ".join(found))
         state, period = self._state, self._drive.servo.sample_period
         forces = compensation_forces(self._drive, inputs)
-        if state.rest_forces == (0.0, 0.0) and not state.vector.any():
+        if state.rest_forces == (0.0, 0.0) != forces:
             self._settle(inputs)
         state.vector[_COMPENSATION] = forces[0] - state.rest_forces[0], forces[1] - state.rest_forces[1]
         end, same = time + dt - self._start_time, _SAME_TIME * period
