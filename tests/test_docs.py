@@ -59,7 +59,7 @@ def test_commands_and_options_that_pages_name_exist():
     for page in [*PAGES, DOCS / "tutorial.py"]:
         for command, rest in re.findall(r"comprope (?:--allow-code )?([a-z]+) ([^`\n]*)", page.read_text("utf-8")):
             if command in known or "--" in rest:
-                named.setdefault(command, set()).update(re.findall(r"(?<!\S)--[a-z][a-z-]*", rest))
+                named.setdefault(command, set()).update(re.findall(r"(?<!\S)--[a-z][a-z0-9-]*", rest))
     assert set(named) <= set(known)
     assert {"simulate", "compare", "diagnose", "add", "improve", "tune"} <= set(named)
     for command, options in named.items():
