@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 
 from comprope.errors import InputError
+from comprope_system import cli
 from comprope_system.measurements import recover_trip
 from comprope_system.measurements.jerk_limited_profile import jerk_limited
 from comprope_system.simulation.measured_run import MotionWishes, read_run
@@ -149,12 +150,13 @@ def test_a_record_that_begins_under_way_is_preceded_by_a_run_up(ends):
     assert any("under way" in one for one in found.remarks)
 
 
-def test_a_record_that_ends_under_way_goes_on_at_its_speed(ends):
-    time = np.arange(0.0, 8.0, 0.02)
+@pytest.mark.parametrize("sampling", [0.02, 0.04, 0.05])
+def test_a_record_that_ends_under_way_goes_on_at_its_speed(ends, sampling):
+    time = np.arange(0.0, 8.0, sampling)
     truth = trip(18.0)
     found = ends(time=time, car_position=noisy(truth.value(time))).trips["car"]
     assert np.isinf(found.rest_after)
-    assert found.velocity([7.98, 8.2]) == pytest.approx(float(truth.derivative(np.array(7.98), 1)), abs=0.05)
+    assert found.velocity([8.0, 8.2]) == pytest.approx(float(truth.derivative(np.array(8.0), 1)), abs=0.1)
 
 
 def test_lateral_columns_act_and_idle_ones_are_named(ends):
@@ -179,3 +181,24 @@ def test_a_dense_signal_is_averaged_without_bending_it():
     time = np.arange(0.0, 16.0, 1e-3)
     found = recover_trip(time, trip(18.0).value(time))
     assert np.abs(found.position(time) - trip(18.0).value(time)).max() < 5e-6
+
+
+def command(capsys, *arguments):
+    """Exit status, standard output and standard error of a command."""
+    with pytest.raises(SystemExit) as done:
+        cli.main([str(one) for one in arguments])
+    return done.value.code, *capsys.readouterr()
+
+
+def test_exact_motion_and_heights_are_options_of_simulate(tmp_path, capsys):
+    run, out, time = tmp_path / "run.csv", tmp_path / "out.csv", np.arange(0.0, 3.0, 0.02)
+    speed = jerk_limited(0.0, 0.5, 1.0, np.full(7, 0.2)).derivative(time, 1)
+    pd.DataFrame({"time": time, "car_speed": speed}).to_csv(run, index=False)
+    quick = ["simulate", "tower50", "--car", run, "--set", "rope.element_length=0.3", "--step", "0.05", "--direct"]
+    status, _, errors = command(capsys, *quick)
+    assert status == 2 and "write car_start" in errors
+    status, shown, _ = command(capsys, *quick, "--exact", "--from", "2", "--out", out)
+    assert status == 0 and "note: car_speed: integrated to a height" in shown
+    assert pd.read_csv(out)["car_position"].iloc[[0, -1]].to_list() == pytest.approx([2.0, 2.5], abs=1e-3)
+    status, _, errors = command(capsys, *quick, "--speed", "2")
+    assert status == 2 and "speed: not accepted with a measured motion" in errors

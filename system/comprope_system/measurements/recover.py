@@ -18,13 +18,14 @@ from .local_misfit import excess
 from .local_smoothing import smooth_within_noise
 from .motion_spans import motion_spans
 from .position_signal import Signal, no_motion, prepare, spikes
-from .smooth_trip import REST, recover_smooth_trip
+from .smooth_trip import recover_smooth_trip
 from .trip import ENDS_UNDER_WAY, Piece, Sequence, Trip, constant, continued, smooth_step
 
 Floats = NDArray[np.float64]
 Motion = Literal["auto", "exact"]
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
+REST = 0.1  # s at the start or end of a record that count as rest
 MARGIN = 1.0  # s before and after a motion is seen beyond the noise, within which it may have begun and ended
 LONGEST_REST = 20.0  # s of a rest that take part in the recovery of the motion before or after it; the rest of it adds nothing
 ROUNDS, MOST_SINGLE = 4, 0.05  # of leaving out the worst sample of each run of misses; share of samples that may go
@@ -77,11 +78,16 @@ def _recovered(signal: Signal, good: NDArray[np.bool_], motion: Motion) -> Trip:
 def _one(signal: Signal, good: NDArray[np.bool_], span: tuple[float, float]) -> Trip:
     """The trip of a signal with one motion, at rest or not before and after it."""
     kept = signal.of(good)
-    departs = span[0] - float(signal.time[0]) >= REST
-    smooth = recover_smooth_trip(signal) if departs else None
+    departs, arrives = _rests(signal, span)
+    smooth = recover_smooth_trip(signal, arrives) if departs else None
     if smooth is None:
-        return _exact(kept, span, "no trip from rest to another height; the motion is taken as it is")
+        return _exact(kept, span, "the car returns to its height without a rest; the motion is taken as it is" if departs else "")
     return _checked(smooth, kept, span)
+
+
+def _rests(signal: Signal, span: tuple[float, float]) -> tuple[bool, bool]:
+    """Whether the record begins and ends at rest."""
+    return span[0] - float(signal.time[0]) >= REST, float(signal.time[-1]) - span[1] >= REST
 
 
 def _checked(trip: Trip, signal: Signal, span: tuple[float, float]) -> Trip:
@@ -128,7 +134,7 @@ def _stand_out(left_out: NDArray[np.bool_], residual: Floats) -> bool:
 def _exact(signal: Signal, span: tuple[float, float], remark: str) -> Trip:
     """The smoothest motion within the noise, at rest outside `span` where the record reaches beyond it."""
     first, last = float(signal.time[0]), float(signal.time[-1])
-    departs, arrives = span[0] - first >= REST, last - span[1] >= REST
+    departs, arrives = _rests(signal, span)
     start = max(span[0] - MARGIN, first) if departs else first
     stop = min(span[1] + MARGIN, last) if arrives else last
     piece = smooth_within_noise(signal, start, stop, departs, arrives)

@@ -16,19 +16,18 @@ from .trip import ENDS_UNDER_WAY, Piece, Trip, continued
 
 Floats = NDArray[np.float64]
 
-REST = 0.1  # s at rest, without which a record ends before the trip does
 LEVEL = 0.25  # s at either end of the record over which the median position is taken
 BEFORE, AFTER = 1.0, 2.0  # s: how far a deviation from the profile may reach beyond its ends
 EVIDENCE = 10.0  # decrease of -2 log likelihood from which on a spline is added to the profile
 
 
-def recover_smooth_trip(signal: Signal) -> Trip | None:
+def recover_smooth_trip(signal: Signal, arrives: bool) -> Trip | None:
     """The smooth trip estimated from a signal that begins at rest; None where the car ends where it began.
 
-    Outliers are left out. A record that ends before the trip does is accepted.
+    Outliers are left out. `arrives`: the record ends at rest.
     """
     t, x, noise = signal.time, signal.position, signal.noise
-    guess, arrives = _guess(t, x, noise)
+    guess = _guess(t, x, noise)
     if guess is None:
         return None
     free = _free(t, x, noise, guess, arrives)
@@ -39,17 +38,17 @@ def recover_smooth_trip(signal: Signal) -> Trip | None:
     return min((free, shaped), key=lambda candidate: candidate[1])[0]
 
 
-def _guess(time: Floats, position: Floats, noise: float) -> tuple[Guess | None, bool]:
-    """Initial guess of the trip, None where it ends where it began; and whether the record includes the end of the trip."""
+def _guess(time: Floats, position: Floats, noise: float) -> Guess | None:
+    """Initial guess of the trip, None where it ends where it began."""
     first = float(np.median(position[time <= time[0] + LEVEL]))
     last = float(np.median(position[time >= time[-1] - LEVEL]))
     away, back = _lasting(np.abs(position - first) > 6.0 * noise), _lasting(np.abs(position - last)[::-1] > 6.0 * noise)
     if away is None or back is None or abs(last - first) < 6.0 * noise:
-        return None, True
+        return None
     start, stop = float(time[away]), float(time[len(time) - 1 - back])
     quarter, three = (time[np.argmax((position - first) / (last - first) > part)] for part in (0.25, 0.75))
     speed = abs(last - first) / max(2.0 * float(three - quarter), 0.1)
-    return Guess(first, last - first, start, stop, speed), time[-1] - stop >= REST
+    return Guess(first, last - first, start, stop, speed)
 
 
 def _lasting(moved: NDArray[np.bool_], count: int = 5) -> int | None:

@@ -39,7 +39,8 @@ _SPELLINGS = {
     "V": "volt volts", "mV": "millivolt", "A": "ampere", "mA": "milliampere", "counts": "count cnt digits inc incr increments",
     "1": "-", "%": "percent prozent", "sample": "samples index",
 }  # fmt: skip
-_CANONICAL = [*MOTIONS["position"],
+_CANONICAL = [
+    *MOTIONS["position"],
     *_FORCES,
     *UNITS["sheave_angular_velocity"],
     *MOTIONS["speed"],

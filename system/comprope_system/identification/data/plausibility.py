@@ -42,8 +42,8 @@ def remarks_on_record(run: Run) -> Iterator[str]:
         yield f"{run.file}: the car does not move"
     elif run.time[-1] < run.trip.rest_after:
         yield f"{run.file}: the record ends before the car stops"
-    if run.trip.kind != "rest" and run.trip.rest_before - run.time[0] < 0.5:
-        rest = run.trip.rest_before - run.time[0]
+    rest = run.trip.rest_before - run.time[0]  # negative after a run-up, which the recovery of the motion tells
+    if run.trip.kind != "rest" and 0.0 <= rest < 0.5:
         yield f"{run.file}: only {rest:.2f} s at rest before the trip: the reference values at rest are uncertain"
     if run.trip.noise > 5e-3:
         yield f"{run.file}: car_position deviates from a smooth trip by {1e3 * run.trip.noise:.1f} mm (standard deviation)"
