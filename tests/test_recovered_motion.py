@@ -194,7 +194,7 @@ def test_exact_motion_and_heights_are_options_of_simulate(tmp_path, capsys):
     run, out, time = tmp_path / "run.csv", tmp_path / "out.csv", np.arange(0.0, 3.0, 0.02)
     speed = jerk_limited(0.0, 0.5, 1.0, np.full(7, 0.2)).derivative(time, 1)
     pd.DataFrame({"time": time, "car_speed": speed}).to_csv(run, index=False)
-    quick = ["simulate", "tower50", "--car", run, "--set", "rope.element_length=0.3", "--step", "0.05", "--direct"]
+    quick = ["simulate", "tower50", "--car", run, "--set", "rope.element_length=0.2", "--step", "0.05", "--direct"]
     status, _, errors = command(capsys, *quick)
     assert status == 2 and "write car_start" in errors
     status, shown, _ = command(capsys, *quick, "--exact", "--from", "2", "--out", out)
