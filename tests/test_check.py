@@ -1,5 +1,6 @@
 """`comprope check`: every fault of a campaign's files, told without a simulation."""
 
+import io
 import json
 import shutil
 
@@ -8,9 +9,11 @@ import pandas as pd
 import pytest
 
 import comprope_system
-from comprope.rope.model_file import dump
+from comprope.rope.model_file import dump, with_changes
 from comprope_system.cli import main
+from comprope_system.identification.comparison.nrmse import channel_error, moves
 from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.report.plot_style import label, legend, panels, plain
 
 from .virtual_elevator import END, MODEL, PHASES, SAMPLING, description
 
@@ -142,3 +145,34 @@ def test_campaign_toml_states_what_the_files_do_not(campaign):
     assert result.problems == () and result.remarks == ()
     run = result.runs[0].run
     assert np.allclose(run.values["turning"], table()["turning"], atol=1e-4) and np.isnan(run.values["car_low"][60:63]).all()
+
+
+def test_runs_that_do_not_begin_where_the_one_before_ended_are_told(campaign):
+    text = (campaign / "campaign.toml").read_text()
+    (campaign / "campaign.toml").write_text(f'{text}[[runs]]\nfile = "next.csv"\n')
+    stamps = pd.Timestamp("2026-11-02 09:12:01") + pd.to_timedelta(TIME, unit="s")
+    table().assign(time=stamps).to_csv(campaign / "up.csv", index=False)
+    table().assign(time=stamps + pd.Timedelta(minutes=3)).to_csv(campaign / "next.csv", index=False)
+    result = comprope_system.check(campaign)
+    (remark,) = result.remarks
+    assert "next.csv: begins at 2 m, but the run before it, up.csv, ended at 11 m" in remark
+
+
+ODD_NAMES = ["cw low", "laser-1", "Laser 1 [mm]", "y (mm)", "$a_b^$ {c}", "effects.x.y", "Größe"]
+
+
+@pytest.mark.parametrize("name", ODD_NAMES)
+def test_a_channel_may_have_any_name(name):
+    changed = with_changes(MODEL, {f"effects.sensor_gain.{name}": 1.25, f"effects.sensor_delay.{name}": 0.1})
+    assert changed.effects.sensor_gain == {name: 1.25} and changed.effects.sensor_delay == {name: 0.1}
+    figure, (axes,) = panels()
+    axes.plot([0.0, 1.0], label=plain(name))
+    label(axes, name, f"{name} [mm]", name)
+    legend(axes)
+    figure.savefig(io.BytesIO())
+
+
+def test_the_error_of_a_channel_that_never_moves_is_not_defined():
+    still, moving = np.full(50, 3e-3), np.linspace(0.0, 1e-3, 50)
+    assert np.isnan(channel_error(still, moving, 1e-4)) and np.isfinite(channel_error(moving, still, 1e-4))
+    assert not moves(still * 1e-3) and moves(moving) and not moves(np.array([]))

@@ -101,7 +101,7 @@ def _run(folder: Path, file: str, model: RopeModel, stated: MotionColumn) -> Sur
 def _car(files: RunFiles, stated: MotionColumn, height: float) -> MotionSignal:
     """The motion of the car, or of the counterweight where that alone is measured.
 
-    Heights outside of the shaft are told by the check of the new campaign, with what to write; here the start is put at a landing.
+    Heights outside of the shaft are told by the check of the new campaign, with what to write; here it starts at a landing.
     """
     starts = (None, 0.0, height)
     for start in starts:

@@ -138,6 +138,11 @@ class RunFiles:
         late = axis.origin - self._start.origin if axis.kind == self._start.kind else 0.0
         return axis.seconds + (late + offset) if late + offset != 0.0 else axis.seconds
 
+    @property
+    def started(self) -> float | None:
+        """The date and time of the first sample [s]; None where the file has no date."""
+        return self._start.origin if self._start is not None and self._start.kind == "date" else None
+
     def assume_time_unit(self, unit: str, why: str) -> None:
         """Read numeric times without a stated unit in `unit` from now on, with a remark."""
         self.assumed_unit = unit

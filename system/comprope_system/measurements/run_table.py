@@ -31,7 +31,8 @@ class RunTable:
 
     `car`, `counterweight` and `lateral` (outward displacements of the rope's ends, by end) have times of their own; without a
     column of the car, `car` is the counterweight's mirrored. `remarks` are sentences about the data. `sampled[column]` (n,) are
-    the times at which a channel has a row at all, for channels with a clock of their own.
+    the times at which a channel has a row at all, for channels with a clock of their own. `started` is the date and time of
+    the first sample [s], None where the files have none.
     """
 
     time: Floats
@@ -41,6 +42,7 @@ class RunTable:
     remarks: tuple[str, ...] = ()
     sampled: dict[str, NDArray[np.bool_]] = field(default_factory=dict)
     lateral: dict[str, MotionSignal] = field(default_factory=dict)
+    started: float | None = None
 
 
 def read_run_table(folder: Path, spec: RunSpec, described: CampaignFile, height: float, within: Path | None) -> RunTable:
@@ -66,7 +68,7 @@ def read_run_table(folder: Path, spec: RunSpec, described: CampaignFile, height:
     signals = {"car": car, **lateral} | ({} if counterweight is None else {"counterweight": counterweight})
     said = [*files.remarks, *(remark for one in signals.values() for remark in one.remarks), *remarks]
     said += idle_columns(files, described, [one.column for one in signals.values()])
-    return _from_zero(RunTable(car.time, car, counterweight, {}, tuple(dict.fromkeys(said)), {}, lateral), read)
+    return _from_zero(RunTable(car.time, car, counterweight, {}, tuple(dict.fromkeys(said)), {}, lateral, files.started), read)
 
 
 def _acting(

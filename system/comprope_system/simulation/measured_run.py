@@ -77,7 +77,8 @@ def read_run(path: Path, height: float, sensors: Sequence[str], wishes: MotionWi
     spec = spec.model_copy(update={key: value for key, value in asked.items() if value is not None})
     wanted = [one for one in campaign.channels if one.quantity == "lateral_displacement" and one.sensor in sensors]
     campaign = campaign.model_copy(update={"channels": present_channels(path.parent, spec, campaign.file, wanted)})
-    table = read_run_table(path.parent, spec, campaign, height, None)
+    within = path.parent if spec.files else None  # the file itself was named by the user, others by its campaign
+    table = read_run_table(path.parent, spec, campaign, height, within)
     signals = EndSignals(table.car, table.counterweight, table.lateral)
     ends = recover_ends(signals, height, spec.motion or campaign.motion, Landings(spec.car_start, spec.car_end), str(path))
     channels = {

@@ -45,6 +45,7 @@ class Run:
     notes: tuple[str, ...] = ()
     sampled: dict[str, NDArray[np.bool_]] = field(default_factory=dict)
     lateral: dict[str, Trip] = field(default_factory=dict)
+    started: float | None = None
 
     @property
     def rest(self) -> NDArray[np.bool_]:
@@ -136,7 +137,7 @@ def read_run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeMode
     position = ends.car.position(table.time)
     run = Run(
         spec.file, spec.role, dict(spec.set), table.time, position, ends.car, ends.counterweight, table.values, notes,
-        table.sampled, ends.lateral,
+        table.sampled, ends.lateral, table.started,
     )  # fmt: skip
     return _without_unseen_rest(run, described)
 

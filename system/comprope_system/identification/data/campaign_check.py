@@ -1,6 +1,6 @@
 """Problems and remarks of each run of a campaign, without a simulation."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from comprope.errors import InputError
@@ -9,7 +9,7 @@ from comprope.rope.model_file import load, with_changes
 
 from ...measurements.campaign_file import CampaignFile, RunSpec, read_campaign_file
 from .campaign import Run, campaign_path, channel_problems, read_run
-from .plausibility import remarks_on, remarks_on_record
+from .plausibility import remarks_on, remarks_on_record, successions
 
 
 @dataclass(frozen=True)
@@ -44,10 +44,16 @@ def check_campaign(folder: str | Path) -> CampaignCheck:
     problems += channel_problems(path, described, model)
     if problems:
         return CampaignCheck(described.name, path.parent, tuple(problems), ())
-    runs = tuple(_run(path, spec, described, model) for spec in described.runs)
+    runs = _with_successions([_run(path, spec, described, model) for spec in described.runs])
     if not any(one.role == "fit" for one in described.runs):
         problems.append(f'{path}: runs: at least one with role = "fit" is needed')
     return CampaignCheck(described.name, path.parent, tuple(problems), runs)
+
+
+def _with_successions(checks: list[RunCheck]) -> tuple[RunCheck, ...]:
+    """The runs with a remark on each that begins elsewhere than the one before ended, as far as their files have dates."""
+    said = successions([one.run for one in checks if one.run is not None])
+    return tuple(replace(one, remarks=(*one.remarks, *said.get(one.file, ()))) for one in checks)
 
 
 def _run(path: Path, spec: RunSpec, described: CampaignFile, model: RopeModel) -> RunCheck:

@@ -3,7 +3,8 @@
 A rope that does not slip turns the sheave with the car's speed over its radius; a sensor sees the rope only below its end.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,21 @@ def remarks_on(run: Run, model: RopeModel, channels: Mapping[str, Channel]) -> l
                 found += _angular_velocity(run, model, channel, value)
             found += _size(run, model, channel, value)
             found += _noise(run, channel, value)
+    return found
+
+
+def successions(runs: Sequence[Run]) -> dict[str, list[str]]:
+    """Sentences by file about runs that begin elsewhere than the run before ended, by the dates of their files."""
+    dated = sorted((run for run in runs if run.started is not None), key=lambda run: float(run.started or 0.0))
+    found = {}
+    for before, run in pairwise(dated):
+        apart = float(run.started or 0.0) - float(before.started or 0.0)
+        begin, end = float(run.trip.position(run.time[0])), float(before.trip.position(before.time[-1]))
+        if apart < PLAUSIBILITY.succession and abs(begin - end) > PLAUSIBILITY.elsewhere:
+            found[run.file] = [
+                f"begins at {begin:.4g} m, but the run before it, {before.file}, ended at {end:.4g} m: does the position of the "
+                "car count from the start of each run (car_start), or was a run left out?"
+            ]
     return found
 
 

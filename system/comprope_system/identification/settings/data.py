@@ -85,6 +85,8 @@ class Plausibility:
         0.85, "1", "share of samples that agree with what a sensor can see, below which it is doubted", JUDGEMENT
     )
     good_view: float = setting(0.95, "1", "the same share above which another arrangement is believed", JUDGEMENT)
+    succession: float = setting(43200.0, "s", "longest time between two runs that are told to follow each other", JUDGEMENT)
+    elsewhere: float = setting(0.5, "m", "distance between the end of a run and the start of the next that is told", JUDGEMENT)
     lateral: float = setting(1.5, "m", "lateral displacement that no shaft has room for", JUDGEMENT)
     axle: float = setting(0.5, "m", "displacement of the sheave that no guide has room for, in a pit that is smaller", JUDGEMENT)
     tension: float = setting(1.5, "1", "ratio of a tension at rest to the weight, or its inverse, that is told", JUDGEMENT)
