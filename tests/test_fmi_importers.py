@@ -131,6 +131,11 @@ def test_hundreds_of_instances_leave_no_trace(fmu: Path, tmp_path: Path) -> None
     assert told(result, "REFERENCES") == ["1"]
 
 
+def test_a_state_saved_in_place_of_another_takes_its_memory(fmu: Path) -> None:
+    result = hosted("saved_often", fmu)
+    assert told(result, "HANDLES") == ["1"] and told(result, "VALUE") == [repr(direct(9).place)]
+
+
 RANGES = (
     "parameter spring.mass = -3 kg: 0.1 to 10 kg is accepted (mass); "
     "parameter spring.stiffness = 1e+09 N/m: 0.1 to 1e+06 N/m is accepted (stiffness)"

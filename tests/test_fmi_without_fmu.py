@@ -236,6 +236,15 @@ def test_a_model_that_does_not_load_leaves_no_file(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
+@given(st.data())
+def test_a_state_with_one_flipped_bit_is_refused(data: st.DataObject) -> None:
+    state = bytearray(stepped(begun(), 0, 5).save_state("toy"))
+    bit = data.draw(st.integers(0, 8 * len(state) - 1))
+    state[bit // 8] ^= 1 << bit % 8
+    with pytest.raises(InputError, match=r"not a whole state of this FMU|made by"):
+        begun().restore_state(bytes(state), "toy")
+
+
 def test_an_internal_error_is_one_line_with_its_place() -> None:
     try:
         raise KeyError("two\nlines")

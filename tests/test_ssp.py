@@ -2,6 +2,8 @@
 
 import subprocess
 import sys
+import xml.etree.ElementTree as ET
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -28,8 +30,30 @@ def test_valid_and_connected_by_name(system: Path) -> None:
     connections = {(one.startElement, one.startConnector, one.endElement, one.endConnector) for one in found.connections}
     ends = ("car", "counterweight")
     motions = {f"{end}_{rate}" for end in ends for rate in ("position", "velocity", "acceleration")}
-    forward = {("drive", name, "rope", name) for name in motions}
+    forward = {("drive", name, "rope", name) for name in motions} | {(None, "destination", "drive", "destination")}
     assert connections == forward | {("rope", f"{end}_end_tension", "drive", f"{end}_end_tension") for end in ends}
+
+
+def test_units_experiment_and_master_are_given(system: Path) -> None:
+    """Every unit of a connector is defined, and OMSimulator finds its master where it looks for it."""
+    with zipfile.ZipFile(system) as archive:
+        root = ET.fromstring(archive.read("SystemStructure.ssd"))
+    spaces = {
+        "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
+        "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
+        "oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd",
+    }
+    used = {one.get("unit") for one in root.iterfind(".//ssd:Connector/ssc:Real", spaces)} - {None}
+    defined = {one.get("name"): one[0].attrib for one in root.iterfind("ssd:Units/ssc:Unit", spaces)}
+    assert used <= set(defined) and defined["N.m"] == {"kg": "1", "m": "2", "s": "-2"}
+    experiment = root.find("ssd:DefaultExperiment", spaces)
+    assert experiment is not None and float(experiment.get("stopTime", "0")) >= 30.0
+    annotation = root.find("ssd:System/ssd:Annotations/ssc:Annotation[@type='org.openmodelica']", spaces)
+    assert annotation is not None
+    master = annotation.find("oms:Annotations/oms:SimulationInformation/oms:FixedStepMaster", spaces)
+    assert master is not None and master.get("description") == "oms-ma" and master.get("stepSize") == "0.01"
+    connector = root.find("ssd:System/ssd:Connectors/ssd:Connector", spaces)
+    assert connector is not None and connector.attrib == {"name": "destination", "kind": "input"}
 
 
 def test_runs_in_fmpy(system: Path, monkeypatch: pytest.MonkeyPatch) -> None:

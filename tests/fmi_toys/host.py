@@ -167,6 +167,20 @@ def load(path: str) -> None:
     print("VALUE", host.steps(17, 40).real("place[1]").hex(), host.real("spring.mass"), host.real("force"))
 
 
+def saved_often(path: str) -> None:
+    host = Host(path).begin()
+    state, seen = c_void_p(), set()
+    for count in range(3000):
+        host.fmu.fmi2GetFMUstate(host.fmu.component, byref(state))
+        seen.add(state.value)
+        if count == 1000:
+            host.steps(0, 5)
+    print("HANDLES", len(seen))
+    host.steps(5, 9)
+    host.setFMUState(state)
+    print("VALUE", host.steps(5, 9).real("place[1]"))
+
+
 class _Callbacks(Structure):
     _fields_ = (("logger", c_void_p), ("memory", c_void_p * 3), ("environment", c_void_p))
 

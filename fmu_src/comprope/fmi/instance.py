@@ -5,13 +5,14 @@ import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
+from zlib import crc32
 
 from ..errors import InputError, SimulationError
 from . import validation
 from .model_interface import Kind, ModelInterface, Role, Simulator, Value, Variable
 
-_MAGIC = b"comprope run 1\n"
-_LENGTHS = struct.Struct("<QQ")
+_MAGIC = b"comprope run 2\n"
+_HEAD = struct.Struct("<QQI")  # lengths of the two parts, and their checksum
 INSTANTIATED, INITIALIZING, STEPPING, TERMINATED = range(4)  # phases of an instance
 
 
@@ -33,7 +34,7 @@ class InstanceState:
 def pack(state: InstanceState, simulator: bytes) -> bytes:
     """The state of instance and simulator as bytes, valid in any process that has the same FMU."""
     head = json.dumps(asdict(state)).encode()
-    return _MAGIC + _LENGTHS.pack(len(head), len(simulator)) + head + simulator
+    return _MAGIC + _HEAD.pack(len(head), len(simulator), crc32(head + simulator)) + head + simulator
 
 
 def unpack(data: bytes, model: str) -> tuple[InstanceState, bytes]:
@@ -50,10 +51,10 @@ def unpack(data: bytes, model: str) -> tuple[InstanceState, bytes]:
 def _parts(data: bytes) -> tuple[InstanceState, bytes]:
     if not data.startswith(_MAGIC):
         raise ValueError("no saved state")
-    start = len(_MAGIC) + _LENGTHS.size
-    head, simulator = _LENGTHS.unpack(data[len(_MAGIC) : start])
-    if len(data) != start + head + simulator:
-        raise ValueError("wrong length")
+    start = len(_MAGIC) + _HEAD.size
+    head, simulator, checksum = _HEAD.unpack(data[len(_MAGIC) : start])
+    if len(data) != start + head + simulator or crc32(data[start:]) != checksum:
+        raise ValueError("wrong length or checksum")
     return InstanceState(**json.loads(data[start : start + head])), data[start + head :]
 
 

@@ -77,5 +77,5 @@ def _native_ropes(model: RopeModel, out: Path, versions: list[str]) -> list[Path
 def _system(model: RopeModel, rope: Path, drive: Path) -> Path:
     """Drive and rope as one system: whatever has the same name is connected."""
     rope_part = Component("rope", rope, rope_interface(model), {"derivative_inputs": True})
-    components = [Component("drive", drive, drive_interface()), rope_part]
+    components = [Component("drive", drive, drive_interface(), exposed=("destination",)), rope_part]
     return write_ssp(rope.with_name(f"{SYSTEM}.ssp"), SYSTEM, components, connections_by_name(components))

@@ -4,12 +4,14 @@
 #include "variables.h"
 
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 /* One block of memory: this head, the values of all variables, the numbers of the model's state. */
 typedef struct SavedState {
     struct SavedState *next;
-    size_t size; /* bytes of the block */
+    size_t size;       /* bytes of the block */
+    uint64_t checksum; /* of what follows, in serialized states */
     char model[64];
     InstanceState instance_state;
     size_t model_numbers; /* none before the steps begin */
@@ -17,6 +19,18 @@ typedef struct SavedState {
 } SavedState;
 
 enum { SERIALIZED_FROM = offsetof(SavedState, size) }; /* what comes before is valid in this process only */
+enum { CHECKED_FROM = offsetof(SavedState, model) - SERIALIZED_FROM };
+
+/* FNV-1a of the serialized bytes behind the checksum: no single byte can change without changing it. */
+static uint64_t checksum_of(const void *bytes, size_t size)
+{
+    const unsigned char *byte = bytes;
+    uint64_t sum = UINT64_C(0xcbf29ce484222325);
+    for (size_t k = CHECKED_FROM; k < size; k++) {
+        sum = (sum ^ byte[k]) * UINT64_C(0x100000001b3);
+    }
+    return sum;
+}
 
 static size_t block_size(size_t model_numbers)
 {
@@ -190,6 +204,8 @@ static bool serialize(Instance *instance, const SavedState *state, void *bytes, 
         return false;
     }
     memcpy(bytes, (const char *)state + SERIALIZED_FROM, needed);
+    const uint64_t checksum = checksum_of(bytes, needed);
+    memcpy((char *)bytes + offsetof(SavedState, checksum) - SERIALIZED_FROM, &checksum, sizeof checksum);
     return true;
 }
 
@@ -226,7 +242,7 @@ static bool deserialize(Instance *instance, const void *bytes, size_t size, void
     if (size >= head_size) {
         memcpy((char *)&head + SERIALIZED_FROM, bytes, head_size);
     }
-    if (!is_state(&head, size)) {
+    if (!is_state(&head, size) || head.checksum != checksum_of(bytes, size)) {
         message_add(&instance->problems, "saved state: %lu bytes that are not a whole state of this FMU",
                     (unsigned long)size);
         return false;
