@@ -60,6 +60,8 @@ def dialects(table: pd.DataFrame) -> Iterator[Variant]:
     filled = table.fillna(-9999.0)
     yield text("blanks", filled.to_string(index=False))
     yield text("blanks, decimal comma", filled.to_string(index=False).replace(".", ","))
+    named = "time [s]  car position [m]  cw low  cw mid  car low  sheave dx  sheave w\n"
+    yield text("blanks, in names too", named + filled.to_string(index=False, header=False))
     yield text("all cells quoted", csv(table, quoting=1))
     texts = table.map(lambda one: "" if pd.isna(one) else f"{one}".replace(".", ","))
     yield text("quoted decimal commas between commas", csv(texts, quoting=1))
@@ -89,6 +91,8 @@ def dialects(table: pd.DataFrame) -> Iterator[Variant]:
     yield text("a text column first", "\n".join(["status," + lines[0], *("OK," + one for one in lines[1:])]))
     yield text("row numbers first", "\n".join(["no," + lines[0], *(f"{k}," + one for k, one in enumerate(lines[1:], 1))]))
     yield text("a text column amid, sometimes empty", csv(_inserted(table, 3, "event", ["start"] + [""] * (len(table) - 1))))
+    yield text("a constant column named time", csv(_inserted(table, 2, "response_time", 7.0)))
+    yield text("two lines of names", "\n".join(["t,car,laser,laser,laser,sheave,sheave", *lines]))
     yield text("an empty column at the end", csv(table.assign(spare="")))
     yield text("columns in another order", csv(table[[*table.columns[::-1]]]))
     yield text("names in capitals with blanks", csv(table.rename(columns=lambda name: name.upper().replace("_", " "))))
@@ -99,10 +103,30 @@ def dialects(table: pd.DataFrame) -> Iterator[Variant]:
     yield text("thousands separated", csv(thousands, sep=";"))
     yield text("exponents", csv(table, float_format="%.9e"))
     yield text("exponents with D", csv(table, float_format="%.9e").replace("e-", "D-").replace("e+", "D+"))
+    yield from labview(table)
     yield text("minus signs of typography", plain.replace("-", "−"))
     yield text("a cell with a word", plain.replace(lines[200], lines[200].replace(lines[200].split(",")[2], "0.1b", 1)))
     yield text("a row with a cell too many", "\n".join([*lines[:300], lines[300] + ",7.0", *lines[301:]]))
     yield text("escape characters in a name", plain.replace("cw_low", "cw_low\x1b[31m", 1))
+
+
+LABVIEW = (
+    "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\t{columns}\nDate\t2026/11/02\n"
+    "Time\t09:12:01,123\n***End_of_Header***\t\n\t\nChannels\t6\nSamples\t826{gap}826{gap}826{gap}826{gap}826{gap}826\n"
+    "X0\t0,0E+0{gap}0,0E+0\nDelta_X\t0,04{gap}0,04{gap}0,04{gap}0,04{gap}0,04{gap}0,04\n***End_of_Header***\n"
+)
+
+
+def labview(table: pd.DataFrame) -> Iterator[Variant]:
+    """LabVIEW measurement files with a time beside each channel, and without times."""
+    cells = table.map(lambda one: "" if pd.isna(one) else f"{one}".replace(".", ","))
+    names = [*table.columns[1:]]
+    rows = ["\t".join(f"{row[0]}\t{one}" for one in row[1:]) for row in cells.itertuples(index=False)]
+    head = LABVIEW.format(columns="Multi", gap="\t\t") + "\t".join(f"X_Value\t{one}" for one in names)
+    yield text("LabVIEW, times beside each channel", "\n".join([f"{head}\tComment", *rows]), file="run.lvm")
+    rows = ["\t".join(["", *row[1:]]) for row in cells.itertuples(index=False)]
+    head = LABVIEW.format(columns="No", gap="\t") + "\t".join(["X_Value", *names])
+    yield text("LabVIEW without times", "\n".join([f"{head}\tComment", *rows]), file="run.lvm")
 
 
 def _inserted(table: pd.DataFrame, at: int, name: str, values: object, allow_duplicates: bool = False) -> pd.DataFrame:
@@ -241,6 +265,12 @@ def binaries(table: pd.DataFrame) -> Iterator[Variant]:
     yield Variant("HDF5 matrix with names", "run.h5", partial(_hdf5_matrix, table))
     yield Variant("MATLAB 7.3", "run.mat", partial(_mat73, table))
     yield Variant("Parquet with time stamps", "run.parquet", lambda path: stamped.to_parquet(path))
+    zoned = stamped.assign(time=pd.DatetimeIndex(stamped["time"]).tz_localize("Europe/Zurich"))
+    yield Variant("Parquet with a time zone", "run.parquet", lambda path: zoned.to_parquet(path))
+    yield Variant("MATLAB structure of Simulink", "run.mat", partial(_simulink, table))
+    others = ", ".join(f'{name} = "{name}/values"' for name in table.columns[2:])
+    groups = f'columns = {{ car = "car_position/values", {others} }}'
+    yield Variant("HDF5 with a time in each group", "run.h5", partial(_hdf5_groups, table), run_extra=groups)
     yield Variant("TDMS waveforms", "run.tdms", partial(_tdms, table))
     yield Variant("a torn Parquet file", "run.parquet", partial(_torn, lambda path: table.to_parquet(path)))
     yield Variant("a torn Excel file", "run.xlsx", partial(_torn, partial(_excel, table)))
@@ -271,6 +301,22 @@ def _hdf5_matrix(table: pd.DataFrame, path: Path) -> None:
 
     with h5py.File(path, "w") as file:
         file.create_dataset("data", data=table.to_numpy()).attrs["columns"] = list(table.columns)
+
+
+def _hdf5_groups(table: pd.DataFrame, path: Path) -> None:
+    import h5py
+
+    with h5py.File(path, "w") as file:
+        for name in table.columns[1:]:
+            file.create_dataset(f"{name}/time", data=table["time"].to_numpy())
+            file.create_dataset(f"{name}/values", data=table[name].to_numpy())
+
+
+def _simulink(table: pd.DataFrame, path: Path) -> None:
+    signals = np.zeros(len(table.columns) - 1, dtype=[("values", "O"), ("label", "O")])
+    for k, name in enumerate(table.columns[1:]):
+        signals[k] = (table[name].to_numpy()[:, None], name)
+    _mat({"out": {"time": table["time"].to_numpy(), "signals": signals}}, path)
 
 
 def _mat73(table: pd.DataFrame, path: Path) -> None:

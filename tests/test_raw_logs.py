@@ -49,7 +49,10 @@ RIGHT = {"semicolon, decimal point", "tab, decimal comma", "quoted decimal comma
          "header in a comment", "header and units repeated", "thousands separated", "encoding utf-16-le", "encoding latin-1",
          "time: ms in brackets", "time: over midnight", "time: days of Excel", "time: comma before milliseconds, between commas",
          "time: epoch in ns", "time: sample numbers, rate above", "car in ft, stated", "MATLAB structure", "HDF5 compound",
-         "MATLAB 7.3", "TDMS waveforms", "Parquet with time stamps", "Excel with dates"}  # fmt: skip
+         "MATLAB 7.3", "TDMS waveforms", "Parquet with time stamps", "Excel with dates",
+         "blanks, in names too",
+         "a constant column named time", "LabVIEW, times beside each channel", "LabVIEW without times", "Parquet with a time zone",
+         "MATLAB structure of Simulink", "HDF5 with a time in each group"}  # fmt: skip
 
 
 def read(folder: Path, variant):

@@ -2,12 +2,14 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from comprope.errors import InputError
 
 from ..files.raw_table import RawColumn, RawTable, printable
 from ..units import split_unit
 
+LOOKED_AT = 200  # samples that tell whether a column counts time
 TIME_NAMES = frozenset(
     [
         "time", "t", "timestamp", "time_stamp", "datetime", "date_time", "date/time", "zeit", "zeitstempel", "uhrzeit",
@@ -65,7 +67,7 @@ def named_one_of(table: RawTable, names: Sequence[str]) -> list[RawColumn]:
 
 def is_time_name(name: str) -> bool:
     """Whether a column of this name holds times: "Time [s]", "t", "time_lasers", "Zeit 2"."""
-    plain = plain_name(re.sub(r"\s*\(\d+\)$", "", name))
+    plain = plain_name(re.sub(r"\s*\(\d+\)$", "", name).rpartition("/")[2] or name)
     first = plain.split("_")[0]
     return plain in TIME_NAMES or first in ("time", "zeit", "timestamp") or plain.endswith(("_time", "_zeit", "_timestamp"))
 
@@ -74,9 +76,16 @@ def clock_columns(table: RawTable, stated: str | None) -> list[RawColumn]:
     """The columns of times: the stated one, else those named so, else one of sample numbers, else none."""
     if stated:
         return [find_column(table, stated)]
+    table = replace(table, columns=tuple(one for one in table.columns if _may_count(one)))
     exact = [one for one in table.columns if one.name == "time"]
     named = [one for one in table.columns if is_time_name(one.name)]
     return named or exact or named_one_of(table, sorted(SAMPLE_NUMBERS))[:1]
+
+
+def _may_count(column: RawColumn) -> bool:
+    """Whether a column may hold times: not empty, and not the same value throughout."""
+    known = column.values[column.values.notna() & (column.values.astype(str) != "")]
+    return known.head(LOOKED_AT).nunique() > 1
 
 
 def car_column(table: RawTable, names: dict[str, str] = CAR_NAMES) -> tuple[RawColumn, str] | None:

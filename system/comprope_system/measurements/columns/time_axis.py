@@ -75,6 +75,8 @@ def _is_stamped(values: pd.Series) -> bool:
 def _stamps(column: RawColumn, table: RawTable) -> TimeAxis:
     values = column.values
     if pd.api.types.is_datetime64_any_dtype(values) or pd.api.types.is_timedelta64_dtype(values):
+        if isinstance(values.dtype, pd.DatetimeTZDtype):
+            values = values.dt.tz_convert(None)
         whole = values.astype("datetime64[ns]" if pd.api.types.is_datetime64_any_dtype(values) else "timedelta64[ns]")
         own, missing, dated = whole.astype("int64").to_numpy(), np.flatnonzero(values.isna()), True
     else:

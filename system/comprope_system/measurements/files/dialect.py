@@ -115,6 +115,7 @@ def locate(rows: Sequence[Cells], decimal: str, header: int | None) -> TableLine
     above = [k for k in range(start, first) if rows[k]]
     units = next((k for k in reversed(above) if _is_units_row(trimmed(rows[k], width))), None)
     if header is not None:
+        units = next((k for k in range(header - 1) if _is_units_row(trimmed(rows[k], width))), units)
         return TableLines(header - 1, units, first, last, width, numeric)
     names = [k for k in above if k != units and _is_header(uncommented(rows[k]), width, decimal)]
     return TableLines(names[-1] if names else None, units, first, last, width, numeric)

@@ -25,7 +25,10 @@ def read(path: Path, stated: FileFormat) -> RawTable:
 
 def _collect(arrays: dict[str, Any], path: str, value: Any) -> None:
     """Vectors of a variable or of a structure's fields, by path."""
-    if isinstance(value, np.void) or (isinstance(value, np.ndarray) and value.dtype.names and value.size == 1):
+    if isinstance(value, np.ndarray) and value.dtype.names and {"values", "label"} <= set(value.dtype.names):
+        for one in value.reshape(-1):  # Simulink's structure with time
+            arrays[f"{path}/{one['label']}"] = one["values"]
+    elif isinstance(value, np.void) or (isinstance(value, np.ndarray) and value.dtype.names and value.size == 1):
         one = value if isinstance(value, np.void) else value.reshape(-1)[0]
         for name in one.dtype.names or ():
             _collect(arrays, f"{path}/{name}", one[name])

@@ -9,6 +9,8 @@ from .raw_table import RawTable
 from .text_encoding import decode
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
+_SEVERAL_BLANKS = re.compile(r"\s{2,}")
+LABVIEW, LABVIEW_END = "LabVIEW Measurement", "***End_of_Header***"
 _COMMA_STAMP = re.compile(r'^("?(?:[^,;\t]*[T ])?\d{1,2}:\d{2}:\d{2}),(\d{3,6})(?=["\s]*,)')
 
 
@@ -20,10 +22,26 @@ def read_text_table(data: bytes, stated: FileFormat) -> RawTable:
         lines.pop()
     if lines and lines[0].lower().startswith("sep=") and len(lines[0].strip()) == 5:  # a line for spreadsheet programs
         lines[0] = ""
+    if stated.header is None and lines and lines[0].startswith(LABVIEW):
+        stated = stated.model_copy(update={"header": _labview_header(lines)})
     separator, decimal = find_separator(lines, stated.separator, stated.decimal)
     if separator == ",":
         lines = _with_points_in_stamps(lines)
-    return table_of([split_line(line, separator) if line.strip() else [] for line in lines], decimal, stated)
+    return table_of([_cells(line, separator) if line.strip() else [] for line in lines], decimal, stated)
+
+
+def _labview_header(lines: list[str]) -> int | None:
+    """The line of the names in a LabVIEW measurement file, from 1: the one after the headers, whose lines hold numbers too."""
+    ends = [k for k, line in enumerate(lines) if line.startswith(LABVIEW_END)]
+    return ends[-1] + 2 if ends else None
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    """The cells of a line; between blanks, names that hold single blanks are separated by several."""
+    cells = split_line(line, separator)
+    if separator == " " and not any(cell[:1].isdigit() or cell[:1] in "+-" for cell in cells):
+        return _SEVERAL_BLANKS.split(line.strip())
+    return cells
 
 
 def _with_points_in_stamps(lines: list[str]) -> list[str]:
