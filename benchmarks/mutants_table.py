@@ -53,6 +53,7 @@ DERIVATIVES = "test_sensitivity_step.py::test_derivatives_are_those_of_whole_run
 OUTPUTS, UNITS, CONSENT = "test_rope_outputs.py", "test_units_of_measurements.py", "test_consent.py"
 WHITE, SCORES, CLOCK = "test_whitening.py", "test_model_score.py", "test_clock_offset.py"
 SERVO, DRIVEN, COURSE, TRIP = (f"test_drive_{name}.py" for name in ("servo", "simulator", "reference_trajectory", "s_curve"))
+STARTS = "test_fmi_initialization.py"
 FMI_RUN, FMI_INSTANCE, SWEEPS = "test_fmi_without_fmu.py", "test_fmi_instance.py", "test_sweep.py"
 
 
@@ -189,6 +190,20 @@ MUTANTS = [
          "test_time_step.py::test_elements_make_up_for_the_chords_at_the_sheave"),
         ("history_not_begun", "all_begin(n, p,", "(lambda *_: None)(n, p,", RESTS),
         ("equilibrium_with_the_sheave_s_torque", "r[m + n] = 0.0", "pass", ECCENTRIC, "equilibrium_residual"),
+    ),
+    *mutants(
+        "starts", INTEGRATION,
+        ("any_start", "abs(lifted) <= LARGEST_LIFT", "abs(lifted) <= 20.0 * LARGEST_LIFT",
+         f"{STARTS}::test_a_start_that_does_not_fit_the_shaft_is_refused"),
+        ("any_jump", "FASTEST_END * since + LARGEST_JUMP", "1e9", f"{STARTS}::test_a_motion_too_fast_for_an_elevator_is_refused"),
+        ("acceleration_of_any_size", " + abs(a) * (t + dt - time)", "",
+         f"{STARTS}::test_a_motion_too_fast_for_an_elevator_is_refused"),
+        ("no_step_put_off", "if duration < SHORTEST_STEP:", "if False:",
+         f"{STARTS}::test_outputs_are_continuous_in_the_length_of_a_step"),
+        ("time_put_off_is_lost", "duration = dt + past[DEFERRED]", "duration = dt",
+         f"{STARTS}::test_many_short_steps_take_the_rope_as_far_as_a_long_one"),
+        ("no_horizon", "horizon = max(duration, SHORTEST_HORIZON)", "horizon = duration",
+         f"{STARTS}::test_a_position_off_by_a_micrometre_does_not_shake_a_short_step"),
     ),
     *mutants(
         "outputs", f"{INTEGRATION}/outputs.py",
@@ -358,11 +373,13 @@ MUTANTS = [
         ("times_free_while_running", "if self._running:", "if False:", FMI_INSTANCE, "setup_experiment"),
         ("time_stands_still", "self.time = time + dt", "self.time = time", f"{FMI_RUN}::test_restored_runs_go_on_bit_for_bit"),
         ("stop_time_forgotten", "self._stop = stop", "self._stop = None", FMI_INSTANCE, "setup_experiment"),
-        ("failure_not_restored", "state.running, state.failure", "state.running, None", FMI_INSTANCE),
+        ("failure_not_restored", "state.phase, state.failure", "state.phase, None", FMI_INSTANCE),
         ("simulator_of_other_parameters", 'parameters == self._of_role("parameter") and', "True and", FMI_INSTANCE),
         ("outputs_of_nan", "if validation.finite_problem(one, values[one.name])]", "if False]",
          f"{FMI_RUN}::test_outputs_that_are_not_finite_are_an_error"),
         ("outputs_after_a_failure", "if self.failure:", "if False:", FMI_INSTANCE),
+        ("flipped_bits", " or crc32(data[start:]) != checksum", "",
+         f"{FMI_RUN}::test_a_state_with_one_flipped_bit_is_refused"),
         ("partly_set_values", 'raise InputError("; ".join(problems))', "pass",
          f"{FMI_RUN}::test_a_refused_value_changes_nothing", "set_values"),
     ),

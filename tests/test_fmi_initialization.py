@@ -274,6 +274,17 @@ def test_short_steps_between_others_lose_no_time(tiny: float) -> None:
     assert abs(slave.instance.simulator.rope.state.time[0] - slave.instance.time) < 1e-6  # type: ignore[attr-defined]
 
 
+def test_many_short_steps_take_the_rope_as_far_as_a_long_one() -> None:
+    """None of them is long enough to be integrated by itself."""
+    slave, other = moved(True, True), moved(True, True)
+    for _ in range(2000):
+        time = slave.instance.time
+        slave.set(**motion(time + 9e-7)).instance.do_step(time, 9e-7)
+    other.set(**motion(1.0018)).instance.do_step(1.0, 0.0018)
+    assert slave.get("sheave_angle") == pytest.approx(other.get("sheave_angle"), rel=1e-4)
+    assert slave.get("sheave_angular_velocity") == pytest.approx(other.get("sheave_angular_velocity"), rel=1e-3)
+
+
 @compiler
 def test_the_native_fmu_takes_short_steps_as_the_one_in_python() -> None:
     pair = Pair(native_fmu(), tower())

@@ -101,7 +101,8 @@ def _system_compiler() -> str:
 def host_target() -> str:
     """The name in TARGETS of the system this runs on."""
     kind = "arm64" if platform.machine().lower() in ("arm64", "aarch64") else "x86_64"
-    name = {"linux": "linux", "win32": "windows", "darwin": f"macos-{kind}"}.get(sys.platform, sys.platform)
+    linux = {"x86_64": "linux", "arm64": "linux-arm64"}[kind]
+    name = {"linux": linux, "win32": "windows", "darwin": f"macos-{kind}"}.get(sys.platform, sys.platform)
     if name not in TARGETS or (kind == "arm64" and "arm64" not in name):
         raise InputError(f"{sys.platform} on {platform.machine()}: binaries can be made for {', '.join(TARGETS)}")
     return name

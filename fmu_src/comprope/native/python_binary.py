@@ -17,7 +17,8 @@ NAME = "python_slave"
 def python_binaries() -> dict[str, bytes]:
     """The binary by system, as in `package.BINARIES`; the same compiler gives the same bytes."""
     files = {path.name: path.read_bytes() for path in BINARY.iterdir() if path.suffix in (".c", ".h")}
-    made = {name: link(NAME, files, target, [] if target.extension == "dll" else ["-ldl"]) for name, target in TARGETS.items()}
+    chosen = {name: target for name, target in TARGETS.items() if target.folder in BINARIES}
+    made = {name: link(NAME, files, target, [] if target.extension == "dll" else ["-ldl"]) for name, target in chosen.items()}
     return {path.split("/")[1]: content for path, content in binary_files(NAME, made).items()}
 
 

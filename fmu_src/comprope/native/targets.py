@@ -28,6 +28,9 @@ _MACOS = "macOS (Intel and Apple)"
 # The oldest processor of each kind: wider vector units gain little, and all give the same bits.
 TARGETS = {
     "linux": Target("Linux", "linux64", "x86_64-linux", "so", "x86_64-unknown-linux-gnu", "x86-64", "x86_64-linux-gnu.2.17"),
+    "linux-arm64": Target(
+        "Linux", "aarch64-linux", "aarch64-linux", "so", "aarch64-unknown-linux-gnu", "generic", "aarch64-linux-gnu.2.17"
+    ),
     "windows": Target("Windows", "win64", "x86_64-windows", "dll", "x86_64-w64-windows-gnu", "x86-64", "x86_64-windows-gnu"),
     "macos-x86_64": Target(
         _MACOS, "darwin64", "x86_64-darwin", "dylib", "x86_64-apple-macosx11.0.0", "x86-64", "x86_64-macos.11.0"
