@@ -105,6 +105,16 @@ def test_held_samples_are_no_steps():
     assert any("holds its values for 0.2 s" in one for one in found.remarks)
 
 
+def test_held_samples_of_a_car_under_way_are_no_coarse_steps():
+    time = np.arange(5.0, 9.0, 0.01)
+    truth = trip(18.0).value(time)
+    found = recover_trip(time, noisy(truth)[10 * (np.arange(len(time)) // 10)])
+    known = time < 8.905  # the last change of the signal
+    assert np.abs(found.position(time) - truth)[known].max() < 2.0 * NOISE
+    with pytest.raises(InputError, match=r"position .* at most"):
+        recover_trip(time, np.round(truth))
+
+
 @pytest.mark.parametrize(("quantity", "order"), [("speed", 1), ("acceleration", 2)])
 def test_a_speed_or_an_acceleration_needs_one_height(ends, quantity, order):
     time = np.arange(0.0, 16.0, 0.02)

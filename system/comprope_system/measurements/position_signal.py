@@ -13,11 +13,12 @@ Mask = NDArray[np.bool_]
 
 LEAST_NOISE = 1e-6  # m; lower bound of the noise, for signals that are exact for all practical purposes
 FEWEST = 20  # samples from which a motion can be estimated
-ACCELERATED = 0.5  # ratio of two estimates of the noise, 1 for white noise, below which one is of the acceleration instead
+ACCELERATED = 0.8  # ratio of two estimates of the noise, 1 for white noise, below which one is of the acceleration instead
 BIN = 8e-3  # s; denser sampling is averaged to this interval, a fifth of the knots' spacing
 TOP_SPEED = 25.0  # m/s; the highest rated speed that the drive accepts: no car moves faster
 DIGITS = 9  # decimal digits [m] of a value that matter
 COARSEST = 0.05  # m; a signal of larger steps, such as the number of a landing, shows no motion
+LONGEST_HELD = 1.0  # s; values held for longer do not show how the car starts and stops
 HELD = 1.5  # median number of equal samples in a moving signal from which on its values are held by a slower device
 LONG_HOLD = 10.0  # median holds; a value repeated for longer is that of a car at rest
 LOCAL = 31  # samples over which the noise is local
@@ -77,7 +78,8 @@ def prepare(time: Floats, position: Floats, step: float | None = None) -> Signal
         raise InputError(f"position: {known.sum()} numbers; at least {FEWEST} are needed to estimate the motion of the car")
     t, x = time[known], position[known]
     step = resolution(x) if step is None else step
-    t, x, held = _without_repetitions(t, x, step)
+    t, x, held = _without_repetitions(t, x, min(step, COARSEST))
+    step = resolution(x) if held else step
     if np.median(np.diff(t)) < 0.5 * BIN:
         dense = _signal(t, x, step)
         t, x = _averaged(t, x, spikes(dense))
@@ -263,6 +265,8 @@ def no_motion(signal: Signal, left_out: Mask) -> str | None:
     """A sentence about a signal of large steps or a jump that no car makes, samples `left_out` aside; None if there is none."""
     if signal.resolution > COARSEST:
         return f"position changes in steps of {signal.resolution:.4g} m: at most {COARSEST:g} m is accepted"
+    if signal.held > LONGEST_HELD:
+        return f"position holds its values for {signal.held:.3g} s: at most {LONGEST_HELD:g} s is accepted"
     t, x = signal.time[~left_out], signal.position[~left_out]
     steps, times = np.abs(np.diff(x)), np.diff(t)
     excess = steps - TOP_SPEED * times - 10.0 * signal.local_noise[~left_out][1:] - signal.resolution
