@@ -110,7 +110,7 @@ def test_held_samples_of_a_car_under_way_are_no_coarse_steps():
     truth = trip(18.0).value(time)
     found = recover_trip(time, noisy(truth)[10 * (np.arange(len(time)) // 10)])
     known = time < 8.905  # the last change of the signal
-    assert np.abs(found.position(time) - truth)[known].max() < 2.0 * NOISE
+    assert np.abs(found.position(time) - truth)[known].max() < 3.0 * NOISE  # 40 samples, of which the last has no successor
     with pytest.raises(InputError, match=r"position .* at most"):
         recover_trip(time, np.round(truth))
 
