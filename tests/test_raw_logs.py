@@ -51,7 +51,8 @@ RIGHT = {"semicolon, decimal point", "tab, decimal comma", "quoted decimal comma
          "time: epoch in ns", "time: sample numbers, rate above", "car in ft, stated", "MATLAB structure", "HDF5 compound",
          "MATLAB 7.3", "TDMS waveforms", "Parquet with time stamps", "Excel with dates",
          "blanks, in names too",
-         "a constant column named time", "LabVIEW, times beside each channel", "LabVIEW without times", "Parquet with a time zone",
+         "a constant column named time", "LabVIEW, times beside each channel", "LabVIEW without times",
+         "Parquet with a time zone",
          "MATLAB structure of Simulink", "HDF5 with a time in each group"}  # fmt: skip
 
 
