@@ -45,6 +45,7 @@ class RunFiles:
     assumed_unit: str = "s"
     remarks: list[str] = field(default_factory=list)
     _tables: dict[str, RawTable] = field(default_factory=dict)
+    _axes: dict[int, TimeAxis] = field(default_factory=dict)
     _start: TimeAxis | None = None
 
     def table(self, file: str) -> RawTable:
@@ -104,12 +105,18 @@ class RunFiles:
         if left:
             names = [one.name for one in table.columns]
             before = [one for one in left if names.index(one.name) < names.index(column.name)]
-            found = time_axis(before[-1] if before else left[0], table, self.stated)
+            found = self._time_axis(before[-1] if before else left[0], table)
         elif self.stated.rate or (table.rate and name != ""):
             found = row_times(table, len(column.values), self.stated.rate or float(table.rate or 0.0))
         else:
             found = self._first_column(column, table)
         return found if found.sure or self.assumed_unit == "s" else found.in_unit(self.assumed_unit)
+
+    def _time_axis(self, column: RawColumn, table: RawTable) -> TimeAxis:
+        """The times of a column, found once."""
+        if id(column) not in self._axes:
+            self._axes[id(column)] = time_axis(column, table, self.stated)
+        return self._axes[id(column)]
 
     def _first_column(self, column: RawColumn, table: RawTable) -> TimeAxis:
         first = table.columns[0]

@@ -76,16 +76,16 @@ def clock_columns(table: RawTable, stated: str | None) -> list[RawColumn]:
     """The columns of times: the stated one, else those named so, else one of sample numbers, else none."""
     if stated:
         return [find_column(table, stated)]
-    table = replace(table, columns=tuple(one for one in table.columns if _may_count(one)))
-    exact = [one for one in table.columns if one.name == "time"]
+    table = replace(table, columns=tuple(one for one in table.columns if _distinct(one) > 0))
     named = [one for one in table.columns if is_time_name(one.name)]
-    return named or exact or named_one_of(table, sorted(SAMPLE_NUMBERS))[:1]
+    counting = [one for one in named if _distinct(one) > 1]  # "response_time", the same in every row, is no clock
+    return counting or named or named_one_of(table, sorted(SAMPLE_NUMBERS))[:1]
 
 
-def _may_count(column: RawColumn) -> bool:
-    """Whether a column may hold times: not empty, and not the same value throughout."""
-    known = column.values[column.values.notna() & (column.values.astype(str) != "")]
-    return known.head(LOOKED_AT).nunique() > 1
+def _distinct(column: RawColumn) -> int:
+    """Number of different values that are not empty, among some of the whole column."""
+    some = column.values.iloc[:: max(len(column.values) // LOOKED_AT, 1)]
+    return int(some[some.notna() & (some.astype(str) != "")].nunique())
 
 
 def car_column(table: RawTable, names: dict[str, str] = CAR_NAMES) -> tuple[RawColumn, str] | None:

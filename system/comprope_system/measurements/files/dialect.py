@@ -60,18 +60,12 @@ def find_separator(lines: Sequence[str], separator: str | None, decimal: str | N
         for sign in ([decimal] if decimal else (".", ","))
         if own != sign or quoted
     ]
-    sampled = _sampled(lines)
+    sampled = [lines[k] for k in _sampled_rows(len(lines))]
     scores = {one: _score([split_line(line, one[0]) for line in sampled if line.strip()], one[1]) for one in tried}
     best = max(tried, key=lambda one: scores[one], default=None)
     if best is None or scores[best] <= 0:
         raise InputError("no table of numbers: rows of at least two cells, with a time and numbers, are accepted")
     return best
-
-
-def _sampled(lines: Sequence[str]) -> list[str]:
-    """Lines from which the dialect is found: those of the beginning, and as many of the middle."""
-    middle = max(len(lines) // 2, TRIED_LINES)
-    return [*lines[:TRIED_LINES], *lines[middle : middle + TRIED_LINES]]
 
 
 def find_decimal(rows: Sequence[Cells]) -> str:
@@ -97,18 +91,21 @@ def _is_value(cell: str, decimal: str) -> bool:
 
 def locate(rows: Sequence[Cells], decimal: str, header: int | None) -> TableLines:
     """Where header, units and numbers stand; `header` is a stated line of names, from 1. Raises `InputError` without a table."""
-    width = _usual_width(rows, decimal)
-    candidates = [
-        k for k, row in enumerate(rows)
-        if len(trimmed(row, width)) == width and _values(row, decimal) >= LEAST_VALUES and k >= (header or 0)
-    ]  # fmt: skip
-    numeric = _numeric_columns([rows[k] for k in candidates], width, decimal)
-    good = [k for k in candidates if fits(rows[k], numeric, decimal)]
-    if len(good) < LEAST_ROWS:
-        raise InputError(f"no table of numbers: {len(good)} rows of {width} cells with numbers; at least {LEAST_ROWS} are needed")
+    sampled = _sampled_rows(len(rows))
+    width = _usual_width([rows[k] for k in sampled], decimal)
+
+    def is_candidate(k: int) -> bool:
+        return len(trimmed(rows[k], width)) == width and _values(rows[k], decimal) >= LEAST_VALUES
+
+    below = [k for k in sampled if k >= (header or 0) and is_candidate(k)]
+    numeric = _numeric_columns([rows[k] for k in below], width, decimal)
+    good = (k for k in range(header or 0, len(rows)) if is_candidate(k) and fits(rows[k], numeric, decimal))
+    first = next(good, None) if below else None
+    if first is None:
+        raise InputError("no table of numbers: no row in which the columns hold a time and numbers")
     # A footer has a word where rows have the time; a row with a bad cell elsewhere is a row.
-    first, key = good[0], numeric.index(True)
-    last = max(k for k, row in enumerate(rows) if k >= first and _is_row(row, key, width, decimal))
+    key = numeric.index(True)
+    last = next(k for k in reversed(range(len(rows))) if k == first or _is_row(rows[k], key, width, decimal))
     while first > (header or 0) and _is_row(rows[first - 1], key, width, decimal):
         first -= 1
     start = header if header is not None else 0
@@ -126,6 +123,12 @@ def _is_row(row: Cells, key: int, width: int, decimal: str) -> bool:
         return False
     # A slower clock may have no time left where another one still has.
     return _is_value(row[key], decimal) or (is_missing(row[key]) and _values(row, decimal) >= LEAST_VALUES)
+
+
+def _sampled_rows(count: int) -> list[int]:
+    """Indices of the rows from which width and kinds of the columns are found: those of the beginning, and some of the middle."""
+    middle = max(count // 2, TRIED_LINES)
+    return [*range(min(count, TRIED_LINES)), *range(middle, min(count, middle + TRIED_LINES))]
 
 
 def _values(row: Cells, decimal: str) -> int:

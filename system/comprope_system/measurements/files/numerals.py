@@ -28,7 +28,6 @@ _NUMBER = {
     for sign, other in ((".", ","), (",", "."))
 }
 _BEGINNINGS = frozenset("+-.,0123456789")
-_PLAIN = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 
 
 def is_number(cell: str, decimal: str) -> bool:
@@ -74,10 +73,14 @@ def to_numbers(values: pd.Series, decimal: str, words: Sequence[float | str]) ->
     Cells of the plain notation are converted by pandas, as `read_csv` does it.
     """
     texts = values.where(values.notna(), "").astype(str).str.strip()
-    plain = texts.map(lambda cell: bool(_PLAIN.fullmatch(cell))) if decimal == "." else pd.Series(False, index=texts.index)
-    found = pd.to_numeric(texts.where(plain), errors="coerce").astype(float)
+    if decimal == ",":
+        texts_with_points = texts.str.replace(",", ".", regex=False)
+        plain = texts_with_points.where(~texts.str.contains(".", regex=False), "")
+    else:
+        plain = texts
+    found = pd.to_numeric(plain, errors="coerce").astype(float)
     wrong, counts = [], dict[str, int]()
-    for k in np.flatnonzero(~plain.to_numpy()):
+    for k in np.flatnonzero(~np.isfinite(found.to_numpy()) & (texts != "").to_numpy()):
         cell = texts.iloc[k]
         if is_number(cell, decimal):
             found.iloc[k] = parse(cell, decimal)
