@@ -33,6 +33,7 @@ ROPE, DRIVE, FMI = "fmu_src/comprope/rope", "fmu_src/comprope/drive", "fmu_src/c
 MECHANICS, INTEGRATION, EFFECTS = f"{ROPE}/mechanics", f"{ROPE}/integration", f"{ROPE}/effects"
 SENSITIVITY, LINALG, SIMULATOR = f"{ROPE}/sensitivity", f"{ROPE}/linalg", f"{ROPE}/simulator"
 IDENTIFICATION, MEASUREMENTS = "system/comprope_system/identification", "system/comprope_system/measurements"
+CHANNEL_NOISE, NOISE_MODEL = f"{IDENTIFICATION}/data/channel_noise.py", f"{IDENTIFICATION}/data/noise_model.py"
 WHITENING, SCORE = f"{IDENTIFICATION}/data/whitening.py", f"{IDENTIFICATION}/estimation/model_score.py"
 LEAST_SQUARES, METRICS = f"{IDENTIFICATION}/estimation/weighted_least_squares.py", f"{IDENTIFICATION}/comparison"
 SWEEP, INSTANCE, VALIDATION = "system/comprope_system/parallel/sweep.py", f"{FMI}/instance.py", f"{FMI}/validation.py"
@@ -51,6 +52,7 @@ ECCENTRIC = "test_effect_forces.py::test_an_eccentric_groove_lifts_the_axle_and_
 ENDS = "test_effect_forces.py::test_effect_moves_the_ends_as_its_formula_says"
 DERIVATIVES = "test_sensitivity_step.py::test_derivatives_are_those_of_whole_runs"
 OUTPUTS, UNITS, CONSENT = "test_rope_outputs.py", "test_units_of_measurements.py", "test_consent.py"
+NOISY = "test_noise_model.py"
 WHITE, SCORES, CLOCK = "test_whitening.py", "test_model_score.py", "test_clock_offset.py"
 SERVO, DRIVEN, COURSE, TRIP = (f"test_drive_{name}.py" for name in ("servo", "simulator", "reference_trajectory", "s_curve"))
 STARTS = "test_fmi_initialization.py"
@@ -253,7 +255,7 @@ MUTANTS = [
         ("sheave_force_s_sign", '"sheave_force": -', '"sheave_force": ', DERIVATIVES),
     ),
     *mutants(
-        "units", f"{MEASUREMENTS}/run_table.py",
+        "units", f"{MEASUREMENTS}/units.py",
         ("rpm", '"rpm": np.pi / 30.0', '"rpm": np.pi / 60.0', UNITS),
         ("per_minute", '"1/min": np.pi / 30.0', '"1/min": 2.0 * np.pi', UNITS),
         ("deg_per_s", '"deg/s": np.pi / 180.0', '"deg/s": np.pi / 360.0', UNITS),
@@ -276,19 +278,35 @@ MUTANTS = [
     ),
     *mutants(
         "whitening", WHITENING,
-        ("mean_at_rest_certain", "covariance += noise**2 / max(run.rest.sum(), 1)", "pass", WHITE),
-        ("mean_at_rest_of_one_sample", "noise**2 / max(run.rest.sum(), 1)", "noise**2", WHITE),
-        ("bins_of_one_sample", "np.diag(noise**2 / count)", "np.diag(noise**2 + 0.0 * count)", WHITE),
+        ("mean_at_rest_certain", "covariance += noise.mean_variance(int((run.rest & np.isfinite(value)).sum()))", "pass", WHITE),
         ("memory_in_bins", "np.exp(-lag / WHITENING.discrepancy_time)",
          "np.exp(-lag / WHITENING.discrepancy_time / 2.0)", WHITE),
         ("discrepancy_squared_away", "discrepancy**2 *", "discrepancy *", WHITE),
         ("hidden_samples_counted", "np.isfinite(value) & visible", "np.isfinite(value)", WHITE),
-        ("outliers_counted", "good[good] = ~outliers(value[good], noise)", "pass", WHITE),
+        ("outliers_counted", "good[good] = ~outliers(value[good], noise.deviation)", "pass", WHITE),
         ("whitened_by_the_wrong_triangle", "means, lower=True)", "means, lower=False)", WHITE),
-        ("spread_of_a_difference", " / 2.0**0.5", "", WHITE),
+        ("noise_taken_as_white", "noise.correlation)", "np.ones(1))", NOISY),
+        ("no_white_part", "WHITENING.white_share * noise.deviation**2", "0.0", WHITE),
+    ),
+    *mutants(
+        "whitening", CHANNEL_NOISE,
+        ("mean_at_rest_of_one_sample", "* inflation / max(count, 1)", "* inflation", WHITE),
+        ("mean_at_rest_between_levels", "self.resolution**2 / 12.0 if held", "0.0 if held", NOISY),
+        ("spread_of_a_difference", " / 2.0**0.5 if", " if", NOISY),
         ("coarse_digits_contradict", "NOISE.quantisation_ratio * stated", "0.0 * stated", WHITE),
-        ("stated_noise_in_the_column_s_unit", "(channel.noise or 0.0) * channel.scale", "(channel.noise or 0.0)", WHITE),
-        ("short_rest_contradicts", "len(rest) < NOISE.min_rest_samples", "len(rest) < 0", WHITE),
+        ("stated_noise_in_the_column_s_unit", "(channel.noise or 0.0) * channel.scale", "(channel.noise or 0.0)", NOISY),
+        ("short_rest_contradicts", "if sum(map(len, records)) < NOISE.min_rest_samples:", "if not records:", NOISY),
+        ("a_swing_after_the_stop_as_rest", "float(np.std(half)) <= still", "True", NOISY),
+        ("vibration_overlooked", "return factor if factor", "return 1.0 if factor", NOISY),
+        ("no_upper_limit", "return min(upper,", "return min(model.deviation,", NOISY),
+    ),
+    *mutants(
+        "whitening", NOISE_MODEL,
+        ("bins_of_one_sample", "return found / np.outer(count, count)", "return found", WHITE),
+        ("lags_counted_once", "np.where((a == b) & (lag > 0), 2.0, 1.0)", "np.ones(len(a))", NOISY),
+        ("reflection_of_half", "k = 2.0 * sum(", "k = 1.0 * sum(", NOISY),
+        ("no_refinement", "<= NOISE.refined_length:", "<= 0:", NOISY),
+        ("always_white", "if (tried :=", "if 1.0 > 2.0 and (tried :=", NOISY),
     ),
     *mutants(
         "scores", SCORE,
@@ -395,7 +413,7 @@ MUTANTS = [
     *mutants(
         "consent", "fmu_src/comprope/consent.py",
         ("any_value", 'os.environ.get(VARIABLE) == "1"', "bool(os.environ.get(VARIABLE))", CONSENT),
-        ("for_ever", "os.environ[VARIABLE] = before", "pass", CONSENT),
+        ("for_ever", "os.environ[variable] = before", "pass", CONSENT),
         ("without_being_asked", '"1" if allow else before', '"1"', CONSENT),
     ),
 ]  # fmt: skip

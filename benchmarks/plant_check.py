@@ -16,7 +16,8 @@ from plant.campaign import Plan, measured, simulate_run, write
 from plant.faults import Rows
 from plant.sites import SITES, Site
 
-from comprope_system.identification.data.campaign import Campaign, Run, load_campaign
+from comprope_system.identification.data.campaign import Campaign, load_campaign
+from comprope_system.identification.data.runs import Run
 from comprope_system.identification.prediction.replay import replay
 from comprope_system.measurements import recover_trip
 

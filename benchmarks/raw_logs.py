@@ -21,7 +21,7 @@ from raw_log_variants import Variant, variants
 
 import comprope_system
 from comprope.errors import CompropeError
-from comprope_system.identification.data.campaign import Run
+from comprope_system.identification.data.runs import Run
 
 TIME, CAR, CHANNEL = 1e-6, 5e-3, 1e-9  # s, m, SI: how far what was read may be from the truth
 RENAMED = {  # of bracketed_units.csv

@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from comprope.rope.model_file import validated, with_changes
-from comprope_system.identification.data.campaign import Channel, Run
+from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.identification.prediction.replay import replay
 from comprope_system.identification.prediction.replay_sensitivities import replay_with_sensitivities
 from comprope_system.measurements import Trip

@@ -6,7 +6,7 @@ import pytest
 from comprope_system.identification.comparison.clock_offset import delay, pooled_delay
 from comprope_system.identification.comparison.error_metrics import sprague_geers
 from comprope_system.identification.comparison.paired_records import Record
-from comprope_system.identification.data.campaign import Channel, Run
+from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.measurements import Trip
 from comprope_system.measurements.jerk_limited_profile import jerk_limited
 
@@ -24,7 +24,7 @@ def swing(time: np.ndarray) -> np.ndarray:
 
 def record(late: float, scale: float = 1.0) -> Record:
     noise = 3e-4 * np.random.default_rng(1).normal(size=TIME.size)
-    return Record(RUN, LASER, scale * swing(TIME - late) + noise, swing(TIME))
+    return Record(RUN, LASER, scale * swing(TIME - late) + noise, swing(TIME), 3e-4)
 
 
 @pytest.mark.parametrize("late", [0.06, -0.06, 0.213, 0.0])
@@ -43,7 +43,7 @@ def test_delays_of_runs_are_pooled_by_their_certainty() -> None:
 
 
 def test_a_channel_that_moves_otherwise_has_no_delay() -> None:
-    other = Record(RUN, LASER, swing(TIME)[::-1].copy(), swing(TIME))
+    other = Record(RUN, LASER, swing(TIME)[::-1].copy(), swing(TIME), 3e-4)
     assert delay(other) is None
     assert delay(record(0.06, scale=0.01)) is None  # not to be seen in the noise
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from comprope_system.identification.data.campaign import load_campaign
-from comprope_system.identification.data.whitening import outliers
+from comprope_system.identification.data.outliers import outliers
 from comprope_system.identification.diagnosis import experiment_design
 from comprope_system.identification.diagnosis.experiment_design import (
     best_two_fits,

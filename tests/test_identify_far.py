@@ -7,8 +7,8 @@ from comprope.rope.effects import REGISTRY
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.diagnose import diagnose
 from comprope_system.identification.diagnosis.linear_screening import screen_at_other_masses
+from comprope_system.identification.estimation.effect_responses import one_step_away
 from comprope_system.identification.estimation.gauss_newton import evaluate
-from comprope_system.identification.estimation.linearisation import one_step_away
 from comprope_system.identification.estimation.mass_search import search_rope_mass
 from comprope_system.identification.estimation.parameter_estimates import plant_estimates
 from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect, instrument_hypotheses

@@ -1,12 +1,10 @@
 """Faults of instruments and of the files are named as such, not fitted away by the rope."""
 
-from types import SimpleNamespace
 
-import numpy as np
 import pytest
 
-from comprope_system.identification.data.campaign import Channel, load_campaign
-from comprope_system.identification.data.whitening import sample_noise
+from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.data.runs import Channel
 from comprope_system.identification.diagnosis.diagnose import diagnose
 from comprope_system.identification.diagnosis.held_out_validation import implausible_parameters, validate
 from comprope_system.identification.estimation.model_score import prior_cost
@@ -57,18 +55,3 @@ def test_a_load_cell_that_shows_too_little_is_no_lighter_sheave(tmp_path, execut
     assert unexplained.kind == "unknown_effect"
     assert implausible_parameters(unexplained)[0][:2] == ("sheave.mass", pytest.approx(-0.13, abs=0.01))
     assert implausible_parameters(found) == []
-
-
-def test_a_stated_noise_that_the_rest_contradicts_is_not_believed():
-    random, true = np.random.default_rng(1), 3e-4
-    value = true * random.standard_normal(400) + 1e-3 * np.linspace(0.0, 1.0, 400)  # it drifts as well
-    run = SimpleNamespace(rest=np.arange(400) < 200)
-    for factor, taken in ((0.4, true), (0.8, 0.8 * true), (1.3, 1.3 * true), (3.0, true)):
-        stated = virtual_elevator.CHANNELS["cw_low"].model_copy(update={"noise": factor * true * 1e3})
-        # Two hundred samples give the noise within 9 %, twice over.
-        assert sample_noise(run, stated, value) == pytest.approx(taken, rel=0.18)
-
-
-def test_a_noise_far_below_what_is_stated_may_be_coarse_digits():
-    run, channel = SimpleNamespace(rest=np.ones(200, bool)), virtual_elevator.CHANNELS["cw_low"]
-    assert sample_noise(run, channel, np.zeros(200)) == channel.noise * channel.scale

@@ -106,6 +106,7 @@ def test_the_result_has_the_form_that_was_agreed(validated):
     assert sum(found["probabilities"].values()) == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_with_the_effect_ruled_out_none_of_the_known_explains_it(campaign, executor):
     """As if eccentricity were in nobody's library."""
     stages = []

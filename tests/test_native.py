@@ -342,6 +342,7 @@ assert pair.refusals == 0
 """
 
 
+@pytest.mark.slow
 def test_effects_from_files_are_compiled_in(fmu: Path, tmp_path: Path) -> None:
     """They do what they do just in time, to the last bit, and nothing while they are off."""
     root, model = Path(__file__).parent.parent, str(presets.model_path("tower50"))

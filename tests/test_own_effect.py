@@ -246,6 +246,7 @@ def test_the_command_that_builds_fmus_asks_for_consent_too(examples, tmp_path):
 # -- in a diagnosis ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_what_only_the_user_knows_is_found_and_added(examples, tmp_path, monkeypatch):
     """Rail joints excite the elevator; its model names the file, but has no such table. One run to fit, one held out."""
     monkeypatch.setattr(virtual_elevator, "RUNS", virtual_elevator.RUNS[::2])

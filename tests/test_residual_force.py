@@ -13,7 +13,8 @@ from scipy.interpolate import BSpline
 
 from comprope.rope.effects import REGISTRY, user_effects
 from comprope.rope.model_file import with_changes
-from comprope_system.identification.data.campaign import Channel, load_campaign
+from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.data.runs import Channel
 from comprope_system.identification.estimation.gauss_newton import gauss_newton
 from comprope_system.identification.estimation.weighted_least_squares import build_problem
 from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS

@@ -14,7 +14,7 @@ from comprope.rope.model_file import with_changes
 from comprope.rope.runtime.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import CompensationRope, values_of
 from comprope.rope.simulator.sensitive_rope import SensitiveRope
-from comprope_system.identification.data.campaign import Channel, Run
+from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.identification.prediction.replay import replay
 from comprope_system.identification.prediction.replay_sensitivities import replay_with_sensitivities
 from comprope_system.measurements import Trip

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from comprope_system.identification.data.campaign import Channel
+from comprope_system.identification.data.runs import Channel
 from comprope_system.measurements.anchoring import Landings
 from comprope_system.measurements.end_motions import EndSignals, recover_ends
 from comprope_system.measurements.motion_column import MotionSignal

@@ -3,15 +3,10 @@
 import numpy as np
 import pytest
 
-from comprope_system.identification.data.campaign import Channel, Run
-from comprope_system.identification.data.whitening import (
-    is_contradicted,
-    noise_from_differences,
-    outliers,
-    sample_noise,
-    stack,
-    whiten_channel,
-)
+from comprope_system.identification.data.channel_noise import ChannelNoise, is_contradicted
+from comprope_system.identification.data.outliers import outliers
+from comprope_system.identification.data.runs import Channel, Run
+from comprope_system.identification.data.whitening import stack, whiten_channel
 from comprope_system.measurements import Trip
 from comprope_system.measurements.jerk_limited_profile import jerk_limited
 
@@ -19,6 +14,7 @@ SAMPLING, REST, NOISE = 0.02, 1.0, 1e-3  # s, s, m
 TIME = np.arange(0.0, 6.0, SAMPLING)
 AT_REST = 51  # samples until the trip begins, both ends counted
 ALL = np.ones(TIME.size, bool)
+WHITE = ChannelNoise(NOISE, np.ones(1), 1.0, 0.0, NOISE)
 
 
 def run() -> Run:
@@ -41,11 +37,12 @@ def swing(seed: int = 0, noise: float = NOISE) -> np.ndarray:
 @pytest.mark.parametrize("reference", ["absolute", "rest"])
 def test_the_covariance_is_of_noise_discrepancy_and_the_mean_at_rest(reference: str) -> None:
     """Bins of 50 ms hold two or three samples; the discrepancy of 0.15 noises forgets itself in half a second."""
-    found = whiten_channel(run(), channel(reference), swing(), ALL)
+    found = whiten_channel(run(), channel(reference), swing(), ALL, WHITE)
     assert found is not None
     bins, count = np.unique((TIME / 0.05).astype(int), return_counts=True)
     assert set(count.tolist()) == {2, 3}
     expected = (0.15 * NOISE) ** 2 * np.exp(-0.05 * np.abs(np.subtract.outer(bins, bins)) / 0.5) + np.diag(NOISE**2 / count)
+    expected += np.diag(np.full(bins.size, 1e-3 * NOISE**2))
     if reference == "rest":  # the mean of 51 samples is off by noise of its own, the same in all bins
         expected = expected + NOISE**2 / AT_REST
     assert found.factor @ found.factor.T == pytest.approx(expected, rel=1e-9)
@@ -55,7 +52,7 @@ def test_the_covariance_is_of_noise_discrepancy_and_the_mean_at_rest(reference: 
 def test_a_channel_that_varies_much_is_allowed_a_discrepancy_in_proportion() -> None:
     """0.2 % of an rms variation of 0.7 m is more than 0.15 mm."""
     value = swing() + np.where(TIME > REST, np.sin(2.0 * np.pi * TIME), 0.0)
-    found = whiten_channel(run(), channel(), value, ALL)
+    found = whiten_channel(run(), channel(), value, ALL, WHITE)
     assert found is not None
     assert found.discrepancy == pytest.approx(0.002 * np.std(value), rel=1e-9)
 
@@ -63,7 +60,7 @@ def test_a_channel_that_varies_much_is_allowed_a_discrepancy_in_proportion() -> 
 def test_whitened_noise_is_white_with_unit_variance() -> None:
     """A hundred draws of noise, discrepancy and mean at rest: 12000 numbers whose squares average to one within 2 %."""
     random, squares = np.random.default_rng(1), []
-    found = whiten_channel(run(), channel("rest"), swing(), ALL)
+    found = whiten_channel(run(), channel("rest"), swing(), ALL, WHITE)
     assert found is not None
     steps, drift = np.exp(-SAMPLING / 0.5), 0.15 * NOISE
     for _ in range(100):
@@ -81,7 +78,7 @@ def test_bins_are_means_of_good_samples_only() -> None:
     value, visible = swing(), ALL.copy()
     value[100] += 0.5  # an outlier
     value[150], visible[200] = np.nan, False
-    found = whiten_channel(run(), channel(), value, visible)
+    found = whiten_channel(run(), channel(), value, visible, WHITE)
     assert found is not None
     left_out = [100, 150, 200]
     assert np.flatnonzero(found.bin_of < 0).tolist() == left_out
@@ -97,40 +94,9 @@ def test_bins_are_means_of_good_samples_only() -> None:
 
 def test_a_channel_of_less_than_twenty_samples_is_left_out() -> None:
     few = np.where(np.arange(TIME.size) < 19, swing(), np.nan)
-    assert whiten_channel(run(), channel(), few, ALL) is None
+    assert whiten_channel(run(), channel(), few, ALL, WHITE) is None
     enough = np.where(np.arange(TIME.size) < 20, swing(), np.nan)
-    assert whiten_channel(run(), channel(), enough, ALL) is not None
-
-
-@pytest.mark.parametrize(
-    ("stated", "real", "expected"),
-    [
-        (1.0, 1e-3, 1e-3),  # mm stated; m
-        (1.0, 4e-3, 4e-3),  # four times as stated: what is seen counts
-        (1.0, 0.4e-3, 0.4e-3),  # less than half of what is stated: the same
-        (1.0, 0.05e-3, 1e-3),  # far less may be a coarse instrument at rest: what is stated counts
-        (None, 2e-3, 2e-3),
-    ],
-)
-def test_noise_is_as_stated_unless_the_rest_contradicts_it(stated: float | None, real: float, expected: float) -> None:
-    found = sample_noise(run(), channel(noise=stated), swing(3, real))
-    # The spread of 50 steps is known to 15 %.
-    assert found == pytest.approx(expected, rel=1e-12 if expected == 1e-3 else 0.35)
-
-
-def test_a_short_rest_contradicts_nothing() -> None:
-    value = swing(0, 5e-3)
-    value[39:51] = np.nan  # 39 samples are left at rest, one too few
-    assert sample_noise(run(), channel(), value) == pytest.approx(1e-3, rel=1e-12)
-
-
-def test_the_noise_from_differences_is_the_deviation_of_white_noise() -> None:
-    noise = np.random.default_rng(2).normal(size=20000)
-    # A median of 2e4 steps is known to 1 %; neither a drift nor outliers count.
-    assert noise_from_differences(noise) == pytest.approx(1.0, abs=0.03)
-    drifting = noise + 0.01 * np.arange(20000)
-    drifting[::100] += 50.0
-    assert noise_from_differences(drifting) == pytest.approx(1.0, abs=0.05)
+    assert whiten_channel(run(), channel(), enough, ALL, WHITE) is not None
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from comprope.rope.model_file import dump, validated, with_changes
-from comprope_system.identification.data.campaign import Channel, Run
+from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.identification.prediction.replay import replay
 from comprope_system.measurements import Trip
 from comprope_system.measurements.jerk_limited_profile import jerk_limited

@@ -19,6 +19,7 @@ class AirDrag(Effect):
     """Air drag normal to the rope."""
 
     name = "air_drag"
+    proportional = True
     drag_coefficient: float = quantity("1", "drag coefficient of the rope across the flow", 0.0, 1000.0, nominal=1.1, off=0.0)
     air_density: float = quantity("kg/m3", "density of the air", 0.1, 5.0, default=1.2)
 
@@ -27,6 +28,7 @@ class ShaftAirflow(Effect):
     """Lateral air flow in the shaft, driven by the car."""
 
     name = "shaft_airflow"
+    proportional = True
     probes: ClassVar[dict[str, tuple[float, ...]]] = {"crossflow_ratio": (0.3, -0.3)}
     brings: ClassVar[dict[str, float]] = {"effects.air_drag.drag_coefficient": 1.1}
     crossflow_ratio: float = quantity(

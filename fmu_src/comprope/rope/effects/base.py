@@ -50,7 +50,8 @@ class Effect(Component):
 
     For the diagnosis: `probes` are values to try for quantities in which the response is not linear,
     `polar` names an amplitude and a phase that stand for a cosine and a sine, and `brings` are other
-    effects' values that this one cannot do without.
+    effects' values that this one cannot do without. The response of a `proportional` effect grows in proportion to its
+    quantities, so that one size of it tells of all; those of friction and hysteresis do not.
 
     `source` is the file of a user's own effect.
     """
@@ -63,6 +64,7 @@ class Effect(Component):
     probes: ClassVar[dict[str, tuple[float, ...]]] = {}
     polar: ClassVar[tuple[str, str] | None] = None
     brings: ClassVar[dict[str, float]] = {}
+    proportional: ClassVar[bool] = False
 
 
 REGISTRY: dict[str, type[Effect]] = {}

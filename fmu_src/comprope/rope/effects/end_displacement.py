@@ -15,6 +15,7 @@ class BuildingSway(Effect):
     """Harmonic sway of the building, growing linearly from the pit to the top landing."""
 
     name = "building_sway"
+    proportional = True
     polar = ("amplitude", "phase")
     amplitude: float = quantity(
         "m", "amplitude at the top landing, towards the counterweight's side", 0.0, 5.0, nominal=0.05, off=0.0
@@ -27,6 +28,7 @@ class AttachmentOffset(Effect):
     """Lateral offsets of the rope's ends relative to the sides of the sheave."""
 
     name = "attachment_offset"
+    proportional = True
     car: float = quantity("m", "outward offset of the end under the car", -0.5, 0.5, default=0.0, nominal=0.01)
     counterweight: float = quantity(
         "m", "outward offset of the end under the counterweight", -0.5, 0.5, default=0.0, nominal=0.01

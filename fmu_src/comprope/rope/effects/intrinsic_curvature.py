@@ -11,6 +11,7 @@ class IntrinsicCurvature(Effect):
     """Curvature of the rope without load, from storage on a drum."""
 
     name = "intrinsic_curvature"
+    proportional = True
     curvature: float = quantity("1/m", "curvature without moment, positive as on the sheave", -5.0, 5.0, nominal=0.1, off=0.0)
 
 

@@ -12,6 +12,7 @@ class SheaveEccentricity(Effect):
     """Eccentricity (runout) of the groove."""
 
     name = "sheave_eccentricity"
+    proportional = True
     polar = ("eccentricity", "phase")
     eccentricity: float = quantity("m", "distance of the groove's centre from the axle", 0.0, 0.05, nominal=1e-3, off=0.0)
     phase: float = quantity(

@@ -19,6 +19,7 @@ from ... import consent
 from ...atomic_files import read_text_file
 from ...errors import CompropeError, InputError
 from ..runtime.parameter_vector import DECLARED
+from . import public_names
 from .base import REGISTRY
 from .file_checks import FileError, refuse_imports, require_declared
 
@@ -103,11 +104,10 @@ def _run(path: str, text: str) -> tuple[str, ...]:
 
 @contextmanager
 def _api_importable() -> Iterator[None]:
-    """While a file runs, API means the module of this package, whatever this package is called: in an FMU it has another name."""
-    from ... import effect
-
+    """While a file runs, API has the public names, whatever this package is called: in an FMU it has another name."""
     kept = sys.modules.get(API)
-    sys.modules[API] = effect
+    sys.modules[API] = types.ModuleType(API)
+    vars(sys.modules[API]).update({name: getattr(public_names, name) for name in public_names.__all__})
     try:
         yield
     finally:

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...report.json_output import plain
-from ..data.campaign import Campaign, Channel, Run
+from ..data.campaign import Campaign
+from ..data.runs import Channel, Run
 from ..data.trip_phases import phases
-from ..data.whitening import sample_noise
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
 from ..prediction.replay import relative_to_rest
 from ..settings import COMPARISON
@@ -152,7 +152,7 @@ def _run(campaign: Campaign, run: Run, predictions: Predictions) -> RunCompariso
     height = campaign.model.shaft.height
     angle = sheave_angle(campaign, run)
     channels = [
-        _channel(run, channel, measured[column], predictions[run.file, column], angle, height)
+        _channel(run, channel, measured[column], predictions[run.file, column], campaign.noise[column].deviation, angle, height)
         for column, channel in campaign.channels.items()
     ]
     return RunComparison(run.file, run.role, tuple(channels), overall(one.nrmse for one in channels))
@@ -164,8 +164,9 @@ def sheave_angle(campaign: Campaign, run: Run) -> Floats:
     return np.asarray((way - way[0]) / campaign.model.sheave.radius)
 
 
-def _channel(run: Run, channel: Channel, measured: Floats, predicted: Floats, angle: Floats, height: float) -> ChannelComparison:
-    noise = sample_noise(run, channel, measured)
+def _channel(
+    run: Run, channel: Channel, measured: Floats, predicted: Floats, noise: float, angle: Floats, height: float
+) -> ChannelComparison:
     both = trusted(measured, predicted, noise)
     t, m, p = run.time[both], measured[both], predicted[both]
     if both.sum() < COMPARISON.min_samples:

@@ -9,9 +9,9 @@ import numpy as np
 
 from ...measurements.run_table import UNITS
 from ..data.campaign import Campaign
+from ..data.outliers import outliers
 from ..data.plausibility import remarks_on_record
 from ..data.trip_phases import phases
-from ..data.whitening import outliers
 from ..prediction.parameter_point import Predictions
 from ..settings import DATA_QUALITY, PAIRED_RECORDS
 from .clock_offset import clock

@@ -5,8 +5,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..data.campaign import Campaign, Run
-from ..data.whitening import outliers, sample_noise
+from ..data.campaign import Campaign
+from ..data.outliers import outliers
+from ..data.runs import Run
 from ..prediction.parameter_point import Predictions
 from ..prediction.replay import relative_to_rest
 from ..settings import COMPARISON
@@ -49,7 +50,7 @@ def nrmse(campaign: Campaign, runs: Sequence[Run], predictions: Predictions) -> 
     found = []
     for run in runs:
         measured = relative_to_rest(run.values, run, campaign.channels)
-        for column, channel in campaign.channels.items():
-            noise = sample_noise(run, channel, measured[column])
+        for column in campaign.channels:
+            noise = campaign.noise[column].deviation
             found.append(channel_error(measured[column], predictions[run.file, column], noise))
     return overall(found)

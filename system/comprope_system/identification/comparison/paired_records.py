@@ -7,8 +7,8 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from ..data.campaign import Campaign, Channel, Run
-from ..data.whitening import sample_noise
+from ..data.campaign import Campaign
+from ..data.runs import Channel, Run
 from ..prediction.parameter_point import Predictions
 from ..prediction.replay import relative_to_rest
 from ..settings import PAIRED_RECORDS
@@ -18,22 +18,21 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Record:
-    """One channel of one run, measured (n,) and predicted (n,) [SI] side by side, NaN where there is none."""
+    """One channel of one run, measured (n,) and predicted (n,) [SI] side by side, NaN where there is none.
+
+    `noise` [SI] is the standard deviation of one sample.
+    """
 
     run: Run
     channel: Channel
     measured: Floats
     predicted: Floats
+    noise: float
 
     @property
     def both(self) -> NDArray[np.bool_]:
         """Where both exist."""
         return np.isfinite(self.measured) & np.isfinite(self.predicted)
-
-    @property
-    def noise(self) -> float:
-        """One sample's standard deviation [SI], as the fits take it."""
-        return sample_noise(self.run, self.channel, self.measured)
 
     def gain(self) -> tuple[float, float]:
         """Measured over predicted variation, and their correlation; (nan, 0) where there is too little to see."""
@@ -51,7 +50,7 @@ def records_of(campaign: Campaign, predictions: Predictions) -> Iterator[Record]
     for run in campaign.runs:
         measured = relative_to_rest(run.values, run, campaign.channels)
         for column, channel in campaign.channels.items():
-            yield Record(run, channel, measured[column], predictions[run.file, column])
+            yield Record(run, channel, measured[column], predictions[run.file, column], campaign.noise[column].deviation)
 
 
 def by_column(records: Sequence[Record]) -> list[list[Record]]:

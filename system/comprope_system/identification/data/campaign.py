@@ -4,6 +4,7 @@ All files are read and checked before an error is raised, so that it names every
 """
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -15,42 +16,16 @@ from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
 
-from ...measurements import Trip
 from ...measurements.anchoring import Landings
 from ...measurements.campaign_file import CampaignFile, Channel, RunSpec, read_campaign_file
 from ...measurements.end_motions import EndMotions, EndSignals, recover_ends
 from ...measurements.run_table import RunTable, read_run_table
 from ...measurements.units import UNITS
-from ..settings import TRIP_PHASES
 from .car_direction import mirrored_car
+from .channel_noise import ChannelNoise, channel_noise
+from .runs import Run
 
 Floats = NDArray[np.float64]
-@dataclass(frozen=True)
-class Run:
-    """Measured run in SI units: `values[column]` (n,) at `time` (n,) [s], NaN where a sample is missing.
-
-    `changes` are the parameters that differ from the model file; `trip` and `counterweight` are smooth trajectories fitted to
-    the measured positions; `notes` are messages about the data. `sampled[column]` (n,) are the times at which a channel with a
-    clock of its own has a sample; `lateral` are outward displacements [m] of the rope ends "car" and "counterweight".
-    """
-
-    file: str
-    role: str
-    changes: dict[str, Any]
-    time: Floats
-    car_position: Floats
-    trip: Trip
-    counterweight: Trip
-    values: dict[str, Floats]
-    notes: tuple[str, ...] = ()
-    sampled: dict[str, NDArray[np.bool_]] = field(default_factory=dict)
-    lateral: dict[str, Trip] = field(default_factory=dict)
-    started: float | None = None
-
-    @property
-    def rest(self) -> NDArray[np.bool_]:
-        """Samples (n,) before the trip."""
-        return np.asarray(self.time <= max(self.trip.rest_before, self.time[0] + TRIP_PHASES.rest_duration))
 
 
 @dataclass(frozen=True)
@@ -64,6 +39,11 @@ class Campaign:
     channels: dict[str, Channel]
     runs: tuple[Run, ...]
     notes: tuple[str, ...] = field(default=())
+
+    @cached_property
+    def noise(self) -> dict[str, ChannelNoise]:
+        """Noise of each channel, by column."""
+        return {column: channel_noise(channel, self.runs) for column, channel in self.channels.items()}
 
     def of_role(self, role: str) -> tuple[Run, ...]:
         """The runs of one role, "fit" or "validate"."""

@@ -8,8 +8,9 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
 
 from ...measurements.campaign_file import CampaignFile, RunSpec, read_campaign_file
-from .campaign import Run, campaign_path, channel_problems, read_run
+from .campaign import campaign_path, channel_problems, read_run
 from .plausibility import remarks_on, remarks_on_record, successions
+from .runs import Run
 
 
 @dataclass(frozen=True)

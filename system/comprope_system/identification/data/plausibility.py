@@ -13,9 +13,9 @@ from comprope.rope.effects import RopeModel
 
 from ...measurements.units import UNITS
 from ..settings import PLAUSIBILITY
-from .campaign import Channel, Run
 from .car_direction import agreement, is_other, regression
-from .whitening import noise_from_differences
+from .channel_noise import spread_of_steps
+from .runs import Channel, Run
 
 Floats = NDArray[np.float64]
 
@@ -165,7 +165,7 @@ def _noise(run: Run, channel: Channel, value: Floats) -> Iterator[str]:
     rest = value[run.rest & np.isfinite(value)]
     if not channel.noise or len(rest) < PLAUSIBILITY.min_samples:
         return
-    ratio = noise_from_differences(rest) / (channel.noise * channel.scale)
+    ratio = spread_of_steps(rest) / (channel.noise * channel.scale)
     if ratio > 0.0 and not 1.0 / PLAUSIBILITY.noise < ratio < PLAUSIBILITY.noise:
         seen = ratio * channel.noise
         stated = f"noise = {channel.noise:g} {channel.unit} is stated"

@@ -8,7 +8,7 @@ import numpy as np
 
 from comprope.errors import SimulationError
 
-from ..estimation.gauss_newton import FitResult, gauss_newton
+from ..estimation.gauss_newton import FitResult, fit_on_full_mesh, gauss_newton
 from ..estimation.initial_guess import best_initial_guess
 from ..estimation.mass_search import search_rope_mass
 from ..estimation.model_score import complexity_penalty, log_score
@@ -19,7 +19,7 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
 from ..progress import ProgressCallback
 from ..settings import CANDIDATES, MASS_SEARCH
-from .linear_screening import ScreenedHypothesis, indistinguishable, screen_hypotheses
+from .linear_screening import ScreenedHypothesis, indistinguishable
 
 
 class CandidateFit(NamedTuple):
@@ -43,8 +43,12 @@ class CandidateFit(NamedTuple):
 
 @dataclass(frozen=True)
 class FitContext:
-    """What the candidate fits of a diagnosis share: the problem, the point without new effects, and the fit of the plant."""
+    """What the candidate fits of a diagnosis share: the problem, the point without new effects, and the fit of the plant.
 
+    `problem` is the coarsened one of `full_problem`, on which the fits are made; the best of them are continued on the full mesh.
+    """
+
+    full_problem: LeastSquaresProblem
     problem: LeastSquaresProblem
     origin: ParameterPoint
     baseline: FitResult
@@ -62,13 +66,12 @@ def fit_candidates(context: FitContext, screened: Sequence[ScreenedHypothesis]) 
     least = max(CANDIDATES.min_share * _improvement(found[0], baseline), worthwhile)
     for k, one in enumerate(screened[: CANDIDATES.max_fits]):
         if _improvement(found[k], baseline) > least and _may_win(found[k], baseline, found):
-            found[k] = _fit_on_full_model(context, one, found)
+            found[k] = fit_on_full_model(context, one, found)
     leader = _leader(found, count)
     while not found[leader].refined and found[leader].fitted.penalised_chi_square < baseline.penalised_chi_square - worthwhile:
-        found[leader] = _fit_on_full_model(context, screened[leader], found)
+        found[leader] = fit_on_full_model(context, screened[leader], found)
         leader = _leader(found, count)
     if found[leader].refined:
-        found[leader] = _with_mass_search(context, found[leader])
         _fit_indistinguishable(context, screened, found, leader)
     return found
 
@@ -76,31 +79,40 @@ def fit_candidates(context: FitContext, screened: Sequence[ScreenedHypothesis]) 
 def refit_from_other_masses(
     context: FitContext, screened: Sequence[ScreenedHypothesis], found: Sequence[CandidateFit]
 ) -> list[CandidateFit]:
-    """The candidate fits, each replaced by a fit from another mass of the rope where that is better.
+    """The candidate fits, the best one and those screened at other masses replaced by fits from there where these are better.
 
     `screened` are effects screened at other masses, most promising first.
     """
     fits = {one.hypothesis.effect: one for one in found}
+    if (best := min((one for one in found if one.refined), key=lambda one: one.fitted.chi_square, default=None)) is not None:
+        fits[best.hypothesis.effect] = with_mass_search(context, best)
     for one in screened[: CANDIDATES.max_mass_fits]:
         if one.chi_square < CANDIDATES.mass_improvement * least_chi_square(fits.values(), context.baseline.chi_square):
-            fit = _with_mass_search(context, _fit_on_full_model(context, one, list(fits.values())))
+            fit = with_mass_search(context, fit_on_full_model(context, one, list(fits.values())))
             known = fits.setdefault(one.hypothesis.effect, fit)
             fits[one.hypothesis.effect] = min(known, fit, key=lambda other: other.fitted.chi_square)
     return list(fits.values())
 
 
-def fit_pair(context: FitContext, found: Sequence[CandidateFit]) -> CandidateFit | None:
-    """Best effect and a second one fitted together; None where the best alone explains too little."""
-    first = min((one.fitted for one in found if one.refined), key=lambda one: one.chi_square, default=None)
-    if first is None or first.hypothesis is None:
-        return None
-    if first.chi_square > CANDIDATES.pair_threshold * context.baseline.chi_square:
-        return None
-    context.report_progress(f"{first.hypothesis.effect} and a second effect: linear screening")
-    screened = screen_hypotheses(context.problem, first.point, first)
-    pairs = [pair for one in screened[: CANDIDATES.max_pairs] if (pair := _fit_together(context, first, one))]
-    best = min(pairs, key=lambda one: one.fitted.chi_square, default=None)
-    return best and _with_mass_search(context, best)
+def best_on_full_mesh(context: FitContext, found: Sequence[CandidateFit]) -> list[CandidateFit]:
+    """The candidate fits, those with a chance to be the verdict on the full mesh."""
+    if context.problem.coarse == context.full_problem.coarse:
+        return list(found)
+    count = len(context.problem.data)
+    top = max((one.log_score(count) for one in found), default=0.0)
+    return [
+        _on_full_mesh(context, one) if one.refined and one.log_score(count) > top - CANDIDATES.close_score else one
+        for one in found
+    ]
+
+
+def _on_full_mesh(context: FitContext, one: CandidateFit) -> CandidateFit:
+    """The candidate fit on the full mesh; unchanged where the model cannot be simulated there."""
+    context.report_progress(f"{one.hypothesis.effect}: fit on the full mesh")
+    try:
+        return one._replace(fitted=fit_on_full_mesh(context.full_problem, one.fitted, context.origin))
+    except SimulationError:
+        return one
 
 
 def least_chi_square(found: Iterable[CandidateFit], default: float) -> float:
@@ -125,7 +137,7 @@ def free_shape_parameters(
     return freed if freed.chi_square < CANDIDATES.shape_improvement * fitted.chi_square else fitted
 
 
-def _fit_on_full_model(context: FitContext, one: ScreenedHypothesis, found: Sequence[CandidateFit]) -> CandidateFit:
+def fit_on_full_model(context: FitContext, one: ScreenedHypothesis, found: Sequence[CandidateFit]) -> CandidateFit:
     """Fit of a screened effect, abandoned once it cannot come near the best of `found`.
 
     An effect that cannot be simulated explains nothing.
@@ -134,7 +146,9 @@ def _fit_on_full_model(context: FitContext, one: ScreenedHypothesis, found: Sequ
     problem, origin, baseline = context.problem, context.origin, context.baseline
     abandon_above = CANDIDATES.abandon_factor * least_chi_square(found, float("inf"))
     try:
-        start = best_initial_guess(problem, one.hypothesis, one.start, origin, baseline, expected=one.chi_square)
+        start = one.start
+        if not one.sized:
+            start = best_initial_guess(problem, one.hypothesis, start, origin, baseline, expected=one.chi_square)
         fitted = gauss_newton(problem, one.hypothesis, start, origin, abandon_above)
         fitted = free_shape_parameters(problem, origin, fitted, abandon_above)
     except SimulationError:
@@ -143,28 +157,16 @@ def _fit_on_full_model(context: FitContext, one: ScreenedHypothesis, found: Sequ
     return CandidateFit(one, fitted, True)
 
 
-def _fit_together(context: FitContext, first: FitResult, second: ScreenedHypothesis) -> CandidateFit | None:
-    """Fit of two effects on the full model; None where it cannot be simulated."""
-    assert first.hypothesis is not None
-    both = combine(first.hypothesis, second.hypothesis)
-    context.report_progress(f"{both.effect}: fit on the full model")
-    try:
-        fitted = gauss_newton(context.problem, both, second.start, context.origin)
-        return CandidateFit(second, free_shape_parameters(context.problem, context.origin, fitted), True)
-    except SimulationError:
-        return None
-
-
 def _fit_indistinguishable(
     context: FitContext, screened: Sequence[ScreenedHypothesis], found: list[CandidateFit], leader: int
 ) -> None:
     """Fit in `found` the effects with a response similar to the leader's: screening may have misjudged one of them."""
     for k, one in enumerate(screened):
         if not found[k].refined and indistinguishable(one, screened[leader]):
-            found[k] = _fit_on_full_model(context, one, found)
+            found[k] = fit_on_full_model(context, one, found)
 
 
-def _with_mass_search(context: FitContext, one: CandidateFit) -> CandidateFit:
+def with_mass_search(context: FitContext, one: CandidateFit) -> CandidateFit:
     """The candidate fit from a better mass of the rope, if there is one, with shape parameters fitted again."""
     moved = search_rope_mass(context.problem, one.fitted, context.origin)
     if moved is one.fitted:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..data.campaign import Campaign
-from ..estimation.gauss_newton import FitResult, evaluate
+from ..estimation.gauss_newton import FitResult, evaluate, fit_on_full_mesh
 from ..estimation.mass_search import fit_with_mass_search
 from ..estimation.model_score import log_score
 from ..estimation.weighted_least_squares import LeastSquaresProblem, build_problem
@@ -20,9 +20,18 @@ from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
 from ..progress import ProgressCallback, no_progress
-from ..settings import CANDIDATES, VERDICT
-from .candidate_fits import CandidateFit, FitContext, fit_candidates, fit_pair, least_chi_square, refit_from_other_masses
+from ..settings import CANDIDATES, SCREENING, VERDICT
+from .candidate_fits import (
+    CandidateFit,
+    FitContext,
+    best_on_full_mesh,
+    fit_candidates,
+    least_chi_square,
+    refit_from_other_masses,
+)
 from .linear_screening import ScreenedHypothesis, indistinguishable, screen_at_other_masses, screen_hypotheses
+from .pair_fits import fit_pair, with_single_fits
+from .size_screening import screen_at_sizes, with_sizes
 
 Floats = NDArray[np.float64]
 
@@ -86,17 +95,30 @@ def diagnose(
     nominal = collect_predictions(runs, submit_replays(campaign, runs, origin, executor))
     problem = replace(build_problem(campaign, runs, executor, nominal), ruled_out=frozenset(without))
     report_progress("plant parameters")
-    initial_fit = evaluate(problem, None, np.zeros(len(PLANT_PARAMETERS)), origin)
-    baseline = fit_with_mass_search(problem, initial_fit, origin)
+    rough = problem.coarsened(origin, nominal)
+    on_coarse_mesh = evaluate(rough, None, np.zeros(len(PLANT_PARAMETERS)), origin)
+    baseline = fit_with_mass_search(rough, on_coarse_mesh, origin)
+    if rough.coarse != problem.coarse:
+        baseline = fit_on_full_mesh(problem, baseline, origin)
+    initial_fit = replace(on_coarse_mesh, predictions=nominal)
+    context = FitContext(problem, problem.coarsened(baseline.point, baseline.predictions), origin, baseline, report_progress)
     report_progress("linear screening of all effects")
-    context = FitContext(problem, origin, baseline, report_progress)
-    found = fit_candidates(context, screen_hypotheses(problem, origin, baseline, initial_fit))
-    if least_chi_square(found, baseline.chi_square) > CANDIDATES.mass_threshold * len(problem.data):
+    screened = screen_hypotheses(problem, origin, baseline, initial_fit)
+    if baseline.chi_square > CANDIDATES.explained * len(problem.data):
+        report_progress("screening at several sizes of each effect")
+        close = baseline.chi_square < SCREENING.close_fit * len(problem.data)
+        about = (baseline,) if close else (baseline, initial_fit)
+        screened = with_sizes(screened, screen_at_sizes(problem, origin, about))
+    found = fit_candidates(context, screened)
+    finished = best_on_full_mesh(context, found)
+    if least_chi_square(finished, baseline.chi_square) > CANDIDATES.mass_threshold * len(problem.data):
         report_progress("linear screening at other masses of the rope")
-        found = refit_from_other_masses(context, screen_at_other_masses(problem, origin, initial_fit), found)
-    diagnosis = _assembled(campaign, problem, nominal, baseline, found)
+        found = refit_from_other_masses(context, screen_at_other_masses(rough, origin, on_coarse_mesh), found)
+        finished = best_on_full_mesh(context, found)
+    diagnosis = _assembled(campaign, problem, nominal, baseline, finished)
     if diagnosis.kind == "unknown_effect" and (pair := fit_pair(context, found)):
-        return _assembled(campaign, problem, nominal, baseline, [*found, pair])
+        found = with_single_fits(context, found, pair)
+        return _assembled(campaign, problem, nominal, baseline, best_on_full_mesh(context, found))
     return diagnosis
 
 

@@ -3,7 +3,6 @@
 The criterion is the whitened distance of their predictions, as in discrimination between models (Hunter and Reiner 1965).
 """
 
-from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from itertools import product
@@ -17,7 +16,8 @@ from comprope.rope.simulator.rope import values_of
 
 from ...measurements import Trip
 from ...measurements.jerk_limited_profile import jerk_limited
-from ..data.campaign import Campaign, Run
+from ..data.campaign import Campaign
+from ..data.runs import Run
 from ..data.whitening import whiten_channel
 from ..estimation.gauss_newton import FitResult
 from ..prediction.parameter_point import collect_predictions, submit_replays
@@ -120,15 +120,9 @@ def _distance(campaign: Campaign, run: Run, a: dict[tuple[str, str], Floats], b:
     total, count = 0.0, 0
     for column, channel in campaign.channels.items():
         one, other = a[run.file, column], b[run.file, column]
-        stated = channel.model_copy(update={"noise": channel.noise or _assumed_noise(campaign, column)})
-        weighed = whiten_channel(run, stated, one, np.isfinite(one) & np.isfinite(other))
+        weighed = whiten_channel(run, channel, one, np.isfinite(one) & np.isfinite(other), campaign.noise[column])
         if weighed:
             apart = weighed.whiten(weighed.means(one) - weighed.means(other))
             total, count = total + float(apart @ apart), count + len(apart)
     return float((total / max(count, 1)) ** 0.5)
 
-
-def _assumed_noise(campaign: Campaign, column: str) -> float:
-    """Noise of a channel, in its unit, that is assumed where none is stated: a share of its standard deviation."""
-    spread: Sequence[float] = [float(np.nanstd(run.values[column])) for run in campaign.runs]
-    return max(EXPERIMENTS.assumed_noise * float(np.median(spread)) / campaign.channels[column].scale, 1e-9)

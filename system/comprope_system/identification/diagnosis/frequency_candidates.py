@@ -5,6 +5,7 @@ beats with the excitation. In the scan each run has an amplitude and a phase of 
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -14,7 +15,7 @@ from scipy.signal import find_peaks, lombscargle
 from comprope.errors import SimulationError
 from comprope.rope.effects import RopeModel, names_of
 
-from ..data.campaign import Channel, Run
+from ..data.runs import Channel, Run
 from ..data.whitening import WhitenedChannel
 from ..estimation.gauss_newton import FitResult
 from ..estimation.linearisation import fit_directions
@@ -29,18 +30,21 @@ EFFECT = "building_sway"
 
 
 def sway_frequencies(problem: LeastSquaresProblem, fitted: FitResult, coarse: float) -> tuple[float, ...]:
-    """Frequencies [Hz] at which a sway explains most of the residual of a fit, on elements `coarse` times as long."""
+    """Frequencies [Hz] at which a sway explains most of the residual of a fit, on elements `coarse` times as long.
+
+    The run of which least is explained decides.
+    """
     campaign = problem.campaign
     if EFFECT not in names_of(campaign.model):
         return ()
+    k = problem.worst_run(problem.residual(fitted.predictions) ** 2)
+    fitted, problem = replace(fitted, jacobian=fitted.jacobian[problem.rows_of_runs[k]]), problem.of_run(k)
     grid = np.arange(FREQUENCIES.sway_lowest, FREQUENCIES.sway_highest, FREQUENCIES.sway_spacing / problem.longest)
-    jobs = []
-    for run in problem.runs:
-        there = run_at_point(campaign.model, run, problem.with_held_fixed(fitted.point), coarse)
-        channels = [one for one in problem.whitened_channels if one.run == run.file]
-        jobs.append(problem.executor.submit(sway_responses, campaign.model, there, campaign.channels, channels, grid, coarse))
+    there = run_at_point(campaign.model, problem.runs[0], problem.with_held_fixed(fitted.point), coarse)
+    channels = problem.whitened_channels
+    job = problem.executor.submit(sway_responses, campaign.model, there, campaign.channels, channels, grid, coarse)
     try:
-        explained = explained_squares(problem, fitted, [job.result() for job in jobs])
+        explained = explained_squares(problem, fitted, job.result())
     except SimulationError:  # elements or time steps too long for this rope
         return ()
     peaks, _ = find_peaks(explained)
@@ -65,17 +69,14 @@ def sway_responses(
     return np.column_stack(columns).reshape(-1, len(grid), 2)
 
 
-def explained_squares(problem: LeastSquaresProblem, fitted: FitResult, responses: Sequence[Floats]) -> Floats:
-    """Decrease of chi-square (frequencies,) by a sway of each frequency, with the plant refitted linearly."""
-    others, count = fit_directions(fitted.hypothesis), len(problem.data)
+def explained_squares(problem: LeastSquaresProblem, fitted: FitResult, responses: Floats) -> Floats:
+    """Decrease of chi-square (frequencies,) of one run by a sway of each frequency, with the plant refitted linearly."""
+    others = fit_directions(fitted.hypothesis)
     plant, _ = np.linalg.qr(np.vstack([fitted.jacobian, np.diag([1.0 / one.prior for one in others])]))
     left = _orthogonal_to(plant, np.append(problem.residual(fitted.predictions), np.zeros(len(others))))
     found = []
-    for k in range(responses[0].shape[1]):
-        columns = np.zeros((count + len(others), 2 * len(responses)))
-        for j, (rows, of_run) in enumerate(zip(problem.rows_of_runs, responses, strict=True)):
-            columns[:count][rows, 2 * j : 2 * j + 2] = of_run[:, k]
-        columns = _orthogonal_to(plant, columns)
+    for k in range(responses.shape[1]):
+        columns = _orthogonal_to(plant, np.vstack([responses[:, k], np.zeros((len(others), 2))]))
         solution = np.linalg.lstsq(columns.T @ columns, columns.T @ left, rcond=FREQUENCIES.sway_cutoff)[0]
         found.append(float(left @ columns @ solution))
     return np.array(found)

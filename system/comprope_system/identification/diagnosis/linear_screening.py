@@ -11,8 +11,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..estimation.effect_responses import effect_responses
 from ..estimation.gauss_newton import FitResult
-from ..estimation.linearisation import effect_jacobian, finite_difference_jacobian, fit_directions, one_step_away, point_at
+from ..estimation.linearisation import fit_directions, instrument_jacobian, point_at
 from ..estimation.mass_search import MASS, fits_at_masses
 from ..estimation.model_score import complexity_penalty, penalised_chi_square, prior_cost
 from ..estimation.per_run_phase import solve_per_run_phases
@@ -33,7 +34,8 @@ class ScreenedHypothesis:
     """Hypothesis with its linear prediction: coefficients `start` (k,), plant first, and the chi-square that it would leave.
 
     `orthogonal_part` (N, directions) is its response with the plant's projected out, `distinct_share` the norm of that over
-    the norm of the response; `alternatives` is the number of variants of the effect that were screened.
+    the norm of the response; `alternatives` is the number of variants of the effect that were screened. `sized`: the effect was
+    simulated at about the size of its coefficients.
     """
 
     hypothesis: Hypothesis
@@ -42,6 +44,7 @@ class ScreenedHypothesis:
     orthogonal_part: Floats
     distinct_share: float
     alternatives: int
+    sized: bool = False
 
     @property
     def penalised_chi_square(self) -> float:
@@ -79,14 +82,14 @@ def screen_hypotheses(
     """
     left_out = {key.split(".")[1] for key in origin.effects} | problem.ruled_out
     known = effect_hypotheses(problem.campaign.model, promising_frequencies(problem, baseline) if tried is None else tried)
-    responses = dict(_effect_responses(problem, origin, [one for one in known if one.effect not in left_out]))
+    responses = effect_responses(problem, origin, [one for one in known if one.effect not in left_out])
     faults = [one for one in instrument_hypotheses(problem.campaign.channels) if one.effect not in left_out]
-    responses |= {one: effect_jacobian(problem, one, origin, baseline.predictions) for one in faults}
+    responses |= {one: instrument_jacobian(problem, one, origin, baseline.predictions) for one in faults}
     return best_per_effect(screen_about_fits(problem, responses, baseline, nominal))
 
 
 def best_per_effect(screened: Sequence[ScreenedHypothesis]) -> list[ScreenedHypothesis]:
-    """Best variant of every effect, most promising effect first."""
+    """Best variant of every effect, most promising effect first, with the number of variants that the effect had."""
     best: dict[str, ScreenedHypothesis] = {}
     for one in sorted(screened, key=lambda one: one.penalised_chi_square):
         best.setdefault(one.hypothesis.effect, one)
@@ -136,20 +139,6 @@ def screen_at_other_masses(
     return best_per_effect(screened)
 
 
-def _effect_responses(
-    problem: LeastSquaresProblem, origin: ParameterPoint, tried: Sequence[Hypothesis]
-) -> Iterator[tuple[Hypothesis, Floats]]:
-    """Responses (N, directions) of every hypothesis that can be simulated, all replays in parallel and on a coarse mesh."""
-    points = [origin, *(point for one in tried for point in one_step_away(origin, one))]
-    predicted = iter(problem.attempts(*points, coarse=coarsening_factor(problem.campaign.model)))
-    if (before := next(predicted)) is None:
-        return
-    for one in tried:
-        found = [at for _ in one.directions if (at := next(predicted)) is not None]
-        if len(found) == len(one.directions):
-            yield one, finite_difference_jacobian(problem, one, before, found)
-
-
 def _screened_variants(
     problem: LeastSquaresProblem, one: Hypothesis, responses: Responses, fit: FitResult, share: float
 ) -> Iterator[ScreenedHypothesis]:
@@ -157,16 +146,22 @@ def _screened_variants(
 
     Chi-squares are multiplied by `share`.
     """
-    response, others = responses[one], fit_directions(fit.hypothesis)
-    weights = np.vstack([fit.jacobian, np.diag([1.0 / p.prior for p in others])])
-    padded = np.vstack([response, np.zeros((len(others), response.shape[1]))])
-    orthogonal = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(response)]
-    distinct = float(np.linalg.norm(orthogonal)) / max(float(np.linalg.norm(response)), 1e-300)
+    response = responses[one]
     variants = sum(other.effect == one.effect for other in responses)
+    orthogonal, distinct = orthogonal_response(response, fit)
     start = np.concatenate([fit.coefficients, np.zeros(response.shape[1])])
-    matrix, directions = np.hstack([fit.jacobian, response]), [*others, *one.directions]
+    matrix, directions = np.hstack([fit.jacobian, response]), [*fit_directions(fit.hypothesis), *one.directions]
     solution = solve_in_scale(problem.residual(fit.predictions), matrix, directions, start)
     yield ScreenedHypothesis(one, solution.coefficients, share * solution.chi_square, orthogonal, distinct, variants)
     if one.polar and len(problem.runs) > 1:
         with_phases, found, chi_square = solve_per_run_phases(problem, fit, response, one)
         yield ScreenedHypothesis(with_phases, found, share * chi_square, orthogonal, distinct, 2 * variants)
+
+
+def orthogonal_response(response: Floats, fit: FitResult) -> tuple[Floats, float]:
+    """Part of a response (N, k) that the parameters of a fit cannot imitate within their priors, and its share of the norm."""
+    others = fit_directions(fit.hypothesis)
+    weights = np.vstack([fit.jacobian, np.diag([1.0 / p.prior for p in others])])
+    padded = np.vstack([response, np.zeros((len(others), response.shape[1]))])
+    orthogonal = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(response)]
+    return orthogonal, float(np.linalg.norm(orthogonal)) / max(float(np.linalg.norm(response)), 1e-300)

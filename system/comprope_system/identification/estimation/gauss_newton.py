@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from comprope.errors import SimulationError
+
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions
@@ -64,10 +66,13 @@ def gauss_newton(
     base: ParameterPoint,
     abandon_above: float = float("inf"),
     initial_fit: FitResult | None = None,
+    *,
+    renew: bool = True,
 ) -> FitResult:
     """Fit of a hypothesis from the coefficients `start` (k,); `initial_fit` is the evaluation there, if it is known.
 
-    A fit whose linearisation predicts a chi-square above `abandon_above` ends where it is. Raises `SimulationError` if the model
+    A fit whose linearisation predicts a chi-square above `abandon_above` ends where it is. Without `renew` derivatives are only
+    updated, never computed anew. Raises `SimulationError` if the model
     cannot be simulated at `start`.
     """
     directions, count, fresh = fit_directions(hypothesis), len(problem.data), True
@@ -85,12 +90,29 @@ def gauss_newton(
         if predicted >= enough:
             best = _line_search(problem, best, solution, base, scale)
         gain = before - best.cost(scale)
-        if fresh and gain < enough:
+        if (fresh or not renew) and gain < enough:
             break
-        fresh = gain < max(enough, GAUSS_NEWTON.min_gain_ratio * predicted)
+        fresh = renew and gain < max(enough, GAUSS_NEWTON.min_gain_ratio * predicted)
         if fresh:
-            best = replace(evaluate(problem, hypothesis, best.coefficients, base), covariance=best.covariance)
+            try:
+                best = replace(evaluate(problem, hypothesis, best.coefficients, base), covariance=best.covariance)
+            except SimulationError:  # derivatives diverge where the motion itself does not
+                break
     return best
+
+
+def fit_on_full_mesh(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:
+    """A fit to a coarsened problem continued on the full mesh, with the derivatives of the coarse one.
+
+    One that leaves much more than noise is only evaluated there: what the coarse mesh errs is little beside that. Raises
+    `SimulationError` if the model cannot be simulated there.
+    """
+    (predictions,) = problem.predictions(fitted.point)
+    residual = problem.residual(predictions)
+    there = replace(fitted, predictions=predictions, chi_square=float(residual @ residual))
+    if there.chi_square > GAUSS_NEWTON.far_from_data * len(problem.data):
+        return there
+    return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base, initial_fit=there, renew=False)
 
 
 def evaluate(problem: LeastSquaresProblem, hypothesis: Hypothesis | None, x: Floats, base: ParameterPoint) -> FitResult:

@@ -12,13 +12,13 @@ from comprope.rope.model_file import with_changes
 from comprope.rope.runtime.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import values_of
 
-from ..data.campaign import Channel, Run
+from ..data.runs import Channel, Run
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS, Direction
-from ..prediction.parameter_point import ParameterPoint, Predictions
+from ..prediction.parameter_point import ParameterPoint, Predictions, run_at_point
 from ..prediction.replay import relative_to_rest
 from ..prediction.replay_sensitivities import replay_with_sensitivities
-from ..settings import LINEARISATION
+from ..settings import LINEARISATION, REPLAY
 from .weighted_least_squares import LeastSquaresProblem
 
 Floats = NDArray[np.float64]
@@ -67,7 +67,9 @@ def linearise(
     there = [problem.with_held_fixed(point_at(hypothesis, list(one), base)) for one in moved]
     campaign = problem.campaign
     jobs = [
-        problem.executor.submit(run_tangents, campaign.model, run, campaign.channels, here, list(zip(there, steps, strict=True)))
+        problem.executor.submit(
+            run_tangents, campaign.model, run, campaign.channels, here, list(zip(there, steps, strict=True)), problem.coarse
+        )
         for run in problem.runs
     ]
     found = dict(zip((run.file for run in problem.runs), (job.result() for job in jobs), strict=True))
@@ -99,21 +101,22 @@ def run_tangents(
     channels: Mapping[str, Channel],
     here: ParameterPoint,
     neighbours: Sequence[tuple[ParameterPoint, float]],
+    coarse: float = 1.0,
 ) -> Tangents:
     """Channels of a run at a point, and their derivatives towards each of some points a step away, by number.
 
-    `neighbours` are (point, step); one that changes no model parameter has no derivative.
+    `neighbours` are (point, step); one that changes no model parameter has no derivative. Elements and time steps are `coarse`
+    times as long.
     """
-    changes = here.changes(model, run)
-    values = values_of(with_changes(model, changes, run.file))
+    moved_run = run_at_point(model, run, here, coarse)
+    values = values_of(with_changes(model, here.changes(model, run), run.file))
     directions = {}
     for k, (point, step) in enumerate(neighbours):
         moved = values_of(with_changes(model, point.changes(model, run), run.file))
         change = {key: _difference(key, value, values.get(key, DECLARED[key].neutral)) / step for key, value in moved.items()}
         if amounts := {key: amount for key, amount in change.items() if amount}:
             directions[str(k)] = amounts
-    moved_run = replace(run, changes=changes)
-    shown, by = replay_with_sensitivities(model, moved_run, channels, directions)
+    shown, by = replay_with_sensitivities(model, moved_run, channels, directions, coarse * REPLAY.time_step)
     return shown.values, {int(k): one for k, one in by.items()}
 
 
@@ -122,34 +125,11 @@ def _difference(key: str, a: float, b: float) -> float:
     return remainder(a - b, 2.0 * pi) if DECLARED[key].unit == "rad" else a - b
 
 
-def effect_jacobian(problem: LeastSquaresProblem, hypothesis: Hypothesis, origin: ParameterPoint, at: Predictions) -> Floats:
-    """Derivatives (N, directions) by the coefficients of an effect that `origin` lacks; `at` are the predictions without it."""
-    if hypothesis.is_instrument:
-        return np.column_stack([_instrument_column(problem, one, origin, at) for one in hypothesis.directions])
-    return finite_difference_jacobian(problem, hypothesis, at, problem.predictions(*one_step_away(origin, hypothesis)))
-
-
-def one_step_away(origin: ParameterPoint, hypothesis: Hypothesis) -> list[ParameterPoint]:
-    """Points with one coefficient of an effect at a finite step and the others at zero, one for each direction."""
-    count, step = len(hypothesis.directions), _step_of(hypothesis)
-    return [with_effect(origin, hypothesis, [step * (j == k) for j in range(count)]) for k in range(count)]
-
-
-def finite_difference_jacobian(
-    problem: LeastSquaresProblem, hypothesis: Hypothesis, at: Predictions, moved: Sequence[Predictions]
+def instrument_jacobian(
+    problem: LeastSquaresProblem, hypothesis: Hypothesis, here: ParameterPoint, at: Predictions
 ) -> Floats:
-    """Derivatives (N, directions) from the predictions at the points of `one_step_away`."""
-    y = problem.whitened(at)
-    return np.column_stack([problem.whitened(one) - y for one in moved]) / _step_of(hypothesis)
-
-
-def _step_of(hypothesis: Hypothesis) -> float:
-    """Finite step of an effect's coefficients.
-
-    It is the typical value, since friction does little until it has some size. The response to an oscillating effect is
-    proportional to its amplitude, but at its typical value a resonance may displace the rope by metres.
-    """
-    return LINEARISATION.oscillation_step if hypothesis.polar else LINEARISATION.effect_step
+    """Derivatives (N, directions) by the coefficients of an instrument's fault; `at` are the predictions at the point `here`."""
+    return np.column_stack([_instrument_column(problem, one, here, at) for one in hypothesis.directions])
 
 
 def _instrument_column(problem: LeastSquaresProblem, direction: Direction, here: ParameterPoint, at: Predictions) -> Floats:

@@ -6,9 +6,12 @@ and for each mass all other parameters are refitted linearly.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+
+from comprope.errors import SimulationError
 
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions
@@ -35,7 +38,10 @@ def search_rope_mass(problem: LeastSquaresProblem, fitted: FitResult, base: Para
     start = _start_at_better_mass(problem, fitted, base)
     if start is None:
         return fitted
-    other = gauss_newton(problem, fitted.hypothesis, start, base, fitted.chi_square)
+    try:
+        other = gauss_newton(problem, fitted.hypothesis, start, base, fitted.chi_square)
+    except SimulationError:
+        return fitted
     return min(fitted, other, key=lambda one: one.chi_square)
 
 
@@ -63,12 +69,29 @@ def _start_at_better_mass(problem: LeastSquaresProblem, initial_fit: FitResult, 
     here = _refit_linearly(problem, initial_fit, initial_fit.predictions, initial_fit.coefficients)
     if here.chi_square < MASS_SEARCH.adequate * len(problem.data):
         return None
-    tried = fits_at_masses(problem, initial_fit, base, _mass_grid(current), coarsening_factor(problem.campaign.model))
-    found = {float(x[MASS]): solution for x, _, solution in tried}
+    found = _fits_of_worst_run(problem, initial_fit, base, _mass_grid(current))
     best = min(found, key=lambda mass: found[mass].chi_square, default=current)
     if current not in found or found[best].chi_square > MASS_SEARCH.min_improvement * found[current].chi_square:
         return None
+    found = _by_mass(fits_at_masses(problem, initial_fit, base, [current, best], coarsening_factor(problem.campaign.model)))
+    if not {current, best} <= set(found) or found[best].chi_square > MASS_SEARCH.min_improvement * found[current].chi_square:
+        return None
     return found[best].coefficients
+
+
+def _fits_of_worst_run(
+    problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint, masses: Sequence[float]
+) -> dict[float, Solution]:
+    """Linear refits at some masses to the run of which least is explained: one run decides which mass is worth trying in all."""
+    squares = problem.residual(initial_fit.predictions) ** 2
+    k = problem.worst_run(squares)
+    rows = problem.rows_of_runs[k]
+    own = replace(initial_fit, jacobian=initial_fit.jacobian[rows])
+    return _by_mass(fits_at_masses(problem.of_run(k), own, base, masses, coarsening_factor(problem.campaign.model)))
+
+
+def _by_mass(fits: Sequence[tuple[Floats, Predictions, Solution]]) -> dict[float, Solution]:
+    return {float(x[MASS]): solution for x, _, solution in fits}
 
 
 def _mass_grid(current: float) -> list[float]:

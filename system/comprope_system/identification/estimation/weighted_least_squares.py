@@ -11,11 +11,12 @@ from scipy.optimize import lsq_linear
 
 from comprope.errors import SimulationError
 
-from ..data.campaign import Campaign, Run
+from ..data.campaign import Campaign
+from ..data.runs import Run
 from ..data.whitening import WhitenedChannel, stack, whiten_channel
 from ..hypotheses.plant_parameters import Direction
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
-from ..prediction.replay import relative_to_rest
+from ..prediction.replay import coarsening_factor, relative_to_rest
 
 Floats = NDArray[np.float64]
 
@@ -25,6 +26,7 @@ class LeastSquaresProblem:
     """Least-squares problem of some runs: `data` (N,) are whitened; with the right model chi-square is about N.
 
     `held` are plant parameters that stay as the model file or the run states them, `ruled_out` effects that are not considered.
+    Elements and time steps of all replays are `coarse` times as long.
     """
 
     campaign: Campaign
@@ -34,10 +36,33 @@ class LeastSquaresProblem:
     executor: Executor
     held: frozenset[str] = frozenset()
     ruled_out: frozenset[str] = frozenset()
+    coarse: float = 1.0
+
+    def coarsened(self, point: ParameterPoint, predictions: Predictions) -> "LeastSquaresProblem":
+        """The same problem on the coarse mesh of screening, with `data` corrected by what that mesh changes at a point.
+
+        `predictions` are those of this problem at the point. There both have the same residual; elsewhere the coarse mesh errs
+        by as much as its error changes from there, at a fraction of the cost.
+        """
+        factor = coarsening_factor(self.campaign.model)
+        if factor == 1.0 or (on_coarse_mesh := self.attempts(point, coarse=factor)[0]) is None:
+            return self
+        change = self.whitened(on_coarse_mesh) - self.whitened(predictions)
+        return replace(self, data=self.data + change, coarse=factor)
 
     def with_held_fixed(self, point: ParameterPoint) -> ParameterPoint:
         """The point with held plant parameters at their stated values."""
         return replace(point, plant={name: value for name, value in point.plant.items() if name not in self.held})
+
+    def of_run(self, k: int) -> "LeastSquaresProblem":
+        """The problem of run `k` alone."""
+        run = self.runs[k]
+        channels = [one for one in self.whitened_channels if one.run == run.file]
+        return replace(self, runs=(run,), whitened_channels=channels, data=self.data[self.rows_of_runs[k]])
+
+    def worst_run(self, squares: Floats) -> int:
+        """Number of the run with the greatest mean of `squares` (N,)."""
+        return int(np.argmax([squares[rows].sum() / max(rows.sum(), 1) for rows in self.rows_of_runs]))
 
     @cached_property
     def rows_of_runs(self) -> NDArray[np.bool_]:
@@ -52,11 +77,13 @@ class LeastSquaresProblem:
 
     def predictions(self, *points: ParameterPoint) -> list[Predictions]:
         """Predictions at some points, computed in parallel."""
-        jobs = [submit_replays(self.campaign, self.runs, self.with_held_fixed(point), self.executor) for point in points]
+        coarse = self.coarse
+        jobs = [submit_replays(self.campaign, self.runs, self.with_held_fixed(point), self.executor, coarse) for point in points]
         return [collect_predictions(self.runs, some) for some in jobs]
 
-    def attempts(self, *points: ParameterPoint, coarse: float = 1.0) -> list[Predictions | None]:
-        """As `predictions`, with elements and time steps `coarse` times as long; None where the simulation fails."""
+    def attempts(self, *points: ParameterPoint, coarse: float | None = None) -> list[Predictions | None]:
+        """As `predictions`, None where the simulation fails; `coarse` replaces the factor of the problem's mesh."""
+        coarse = coarse or self.coarse
         jobs = [submit_replays(self.campaign, self.runs, self.with_held_fixed(point), self.executor, coarse) for point in points]
         return [self._attempted(some) for some in jobs]
 
@@ -86,7 +113,7 @@ def build_problem(campaign: Campaign, runs: Sequence[Run], executor: Executor, n
     for run in runs:
         measured = relative_to_rest(run.values, run, campaign.channels)
         for column, channel in campaign.channels.items():
-            one = whiten_channel(run, channel, measured[column], np.isfinite(nominal[run.file, column]))
+            one = whiten_channel(run, channel, measured[column], np.isfinite(nominal[run.file, column]), campaign.noise[column])
             if one:
                 whitened_channels.append(one)
     data = np.concatenate([one.whiten(one.data) for one in whitened_channels]) if whitened_channels else np.zeros(0)

@@ -12,7 +12,7 @@ from math import atan2, hypot, pi
 from comprope.quantities import Quantity, quantities
 from comprope.rope.effects import INSTRUMENT, REGISTRY, Effect, RopeModel, names_of
 
-from ..data.campaign import Channel
+from ..data.runs import Channel
 from ..settings import HYPOTHESES
 from .plant_parameters import Direction
 

@@ -13,7 +13,8 @@ from comprope.rope.effects import INSTRUMENT, REGISTRY, RopeModel
 from comprope.rope.simulator.rope import values_of
 from comprope.validation_messages import suggestion
 
-from ..data.campaign import Campaign, Channel
+from ..data.campaign import Campaign
+from ..data.runs import Channel
 from ..settings import HYPOTHESES
 from .effect_hypotheses import Hypothesis, combine, hypotheses_of_effect, instrument_hypotheses
 from .plant_parameters import Direction

@@ -13,9 +13,10 @@ from ...report.json_output import plain
 from ..comparison.compare import Comparison, compare
 from ..data.campaign import Campaign
 from ..diagnosis.linear_screening import promising_frequencies, screen_about_fits
+from ..estimation.effect_responses import effect_responses
 from ..estimation.gauss_newton import FitResult, evaluate, gauss_newton
 from ..estimation.initial_guess import best_initial_guess
-from ..estimation.linearisation import effect_jacobian, point_at
+from ..estimation.linearisation import instrument_jacobian, point_at
 from ..estimation.mass_search import fit_with_mass_search, search_rope_mass
 from ..estimation.parameter_estimates import (
     Estimate,
@@ -143,7 +144,9 @@ def _best_start(baseline: BaselineFit, tried: list[Hypothesis]) -> tuple[Hypothe
     problem, (old, own) = baseline.problem, effects_in_model(baseline.campaign)
     plant = len(PLANT_PARAMETERS)
     origin = point_at(old, [*np.zeros(plant), *own], ParameterPoint())
-    columns = {one: effect_jacobian(problem, one, origin, baseline.initial_fit.predictions) for one in tried}
+    columns = effect_responses(problem, origin, [one for one in tried if not one.is_instrument])
+    at = baseline.initial_fit.predictions
+    columns |= {one: instrument_jacobian(problem, one, origin, at) for one in tried if one.is_instrument}
     screened = screen_about_fits(problem, columns, baseline.fitted, baseline.initial_fit)
     best = min(screened, key=lambda one: one.penalised_chi_square)
     there, new = best.start[plant : plant + len(own)], best.start[plant + len(own) :]

@@ -13,7 +13,8 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.runtime.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import values_of
 
-from ..data.campaign import Campaign, Channel, Run
+from ..data.campaign import Campaign
+from ..data.runs import Channel, Run
 from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
 from ..settings import REPLAY
 from .replay import replay

@@ -14,7 +14,7 @@ from comprope.rope.parameters import Base
 from comprope.rope.simulator.rope import CompensationRope
 
 from ...measurements import Trip
-from ..data.campaign import Channel, Run
+from ..data.runs import Channel, Run
 from ..settings import REPLAY
 
 Floats = NDArray[np.float64]
@@ -56,11 +56,11 @@ def instrument(model: RopeModel, column: str, time: Floats, value: Floats) -> Fl
         (getattr(model.effects, name) or {}).get(column)
         for name in ("sensor_gain", "sensor_offset", "sensor_delay", "sensor_drift")
     )
-    late = _delayed(time, value, delay) if delay else value
+    late = delayed(time, value, delay) if delay else value
     return (1.0 if gain is None else gain) * late + (offset or 0.0) + (drift or 0.0) * (time - time[0])
 
 
-def _delayed(time: Floats, value: Floats, delay: float) -> Floats:
+def delayed(time: Floats, value: Floats, delay: float) -> Floats:
     """Value (n,) a `delay` [s] earlier, by linear interpolation; samples out of view stay so and hide no others."""
     known = np.isfinite(value)
     if not known.any():
@@ -94,17 +94,24 @@ def _simulated_channels(rope: CompensationRope, run: Run, grid: Floats, channels
     found = {column: np.ones((len(grid), 2)) for column in channels}
     sensors = {sensor.name: sensor for sensor in rope.model.sensors}
     with_forces = any(one.quantity.endswith(("force", "tension")) for one in channels.values())
+    paths = interval_paths(motion)
+    lateral = {column: sensors[str(one.sensor)] for column, one in channels.items() if one.quantity == "lateral_displacement"}
+    others = {column: one.quantity for column, one in channels.items() if column not in lateral}
     for k in range(len(grid)):
         if k:
-            rope.step(REPLAY.output_interval, np.concatenate([motion[k - 1], motion[k]], axis=1).ravel())
-        outputs: Mapping[str, Any] = rope.outputs() if with_forces else rope.sheave()
-        for column, channel in channels.items():
-            if channel.quantity == "lateral_displacement":
-                sensor = sensors[str(channel.sensor)]
-                found[column][k] = rope.lateral_displacement(sensor.side, sensor.height)
-            else:
-                found[column][k, 0] = outputs[channel.quantity]
+            rope.step(REPLAY.output_interval, paths[k - 1])
+        for column, sensor in lateral.items():
+            found[column][k] = rope.lateral_displacement(sensor.side, sensor.height)
+        if others:
+            outputs: Mapping[str, Any] = rope.outputs() if with_forces else rope.sheave()
+            for column, quantity in others.items():
+                found[column][k, 0] = outputs[quantity]
     return found
+
+
+def interval_paths(motion: Floats) -> Floats:
+    """Paths of the ends over each interval (times - 1, PATHS * PATH), from their motion (times, 4, 3) at its ends."""
+    return np.concatenate([motion[:-1], motion[1:]], axis=2).reshape(len(motion) - 1, -1)
 
 
 def end_motion(model: Base, run: Run, grid: Floats) -> Floats:

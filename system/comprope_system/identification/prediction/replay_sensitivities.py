@@ -12,9 +12,9 @@ from comprope.rope.simulator.parameter_directions import Direction
 from comprope.rope.simulator.rope import values_of
 from comprope.rope.simulator.sensitive_rope import SensitiveRope
 
-from ..data.campaign import Channel, Run
+from ..data.runs import Channel, Run
 from ..settings import REPLAY
-from .replay import Floats, Replay, end_motion, instrument, output_times, relative_to_rest, start_of
+from .replay import Floats, Replay, end_motion, instrument, interval_paths, output_times, relative_to_rest, start_of
 
 FORCES = ("force", "tension")
 
@@ -75,6 +75,7 @@ def _simulated_channels(
 ) -> tuple[dict[str, Floats], dict[str, Floats]]:
     """Each channel and its derivatives (times, 1 + directions) on the grid, and where it is out of view (times,)."""
     motion = end_motion(rope.rope.model, run, grid)
+    paths = interval_paths(motion)
     rope.solve_equilibrium(*start_of(rope.rope.model, motion), time=float(grid[0]))
     found = {column: np.zeros((len(grid), 1 + len(rope.names))) for column in channels}
     hidden = {column: np.zeros(len(grid)) for column in channels}
@@ -83,7 +84,7 @@ def _simulated_channels(
     others = {column: one.quantity for column, one in channels.items() if column not in sensors}
     for k in range(len(grid)):
         if k:
-            rope.step(REPLAY.output_interval, np.concatenate([motion[k - 1], motion[k]], axis=1).ravel())
+            rope.step(REPLAY.output_interval, paths[k - 1])
         if sensors:
             readings[k] = rope.read_sensors()
         if others:

@@ -15,7 +15,7 @@ from scipy.interpolate import BSpline
 
 from comprope.rope.effects import RopeModel, model_type, user_effects
 
-from ..data.campaign import Channel, Run
+from ..data.runs import Channel, Run
 from ..estimation.weighted_least_squares import LeastSquaresProblem
 from ..prediction.parameter_point import ParameterPoint, run_at_point
 from ..prediction.replay import Floats, coarsening_factor

@@ -12,7 +12,8 @@ import numpy as np
 from comprope.errors import SimulationError
 
 from ..comparison.error_metrics import rms
-from ..data.campaign import Campaign, Channel, Run
+from ..data.campaign import Campaign
+from ..data.runs import Channel, Run
 from ..data.trip_phases import phases
 from ..estimation.gauss_newton import FitResult
 from ..estimation.weighted_least_squares import LeastSquaresProblem

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from ..comparison.compare import sheave_angle
 from ..comparison.error_metrics import rms
-from ..data.campaign import Campaign, Run
+from ..data.campaign import Campaign
+from ..data.runs import Run
 from ..data.trip_phases import phases
 from ..prediction.parameter_point import Predictions
 from ..prediction.replay import relative_to_rest

@@ -30,6 +30,10 @@ class Whitening:
         JUDGEMENT,
     )  # fmt: skip
     discrepancy_noise: float = setting(0.15, "1", "least standard deviation of the discrepancy over that of the noise", JUDGEMENT)
+    white_share: float = setting(
+        1e-3, "1", "variance of a bin's white part over that of a sample's noise; 5 % of that of ten white samples' mean",
+        JUDGEMENT,
+    )  # fmt: skip
     outlier_threshold: float = setting(
         6.0, "1", "standard deviations from the running median beyond which a sample is an outlier", JUDGEMENT
     )
@@ -38,17 +42,36 @@ class Whitening:
 
 @dataclass(frozen=True)
 class Noise:
-    """Standard deviation of a channel's noise: as stated in the campaign, or estimated from the rest before the trip."""
+    """Noise of a channel: as stated in the campaign, or estimated from the rests; its model, resolution and growth in motion."""
 
     mad_factor: float = setting(
         1.4826, "1", "standard deviation over median absolute deviation", f"{DERIVED}: normal distribution, 1 / 0.6745"
     )
-    min_rest_samples: int = setting(40, "1", "fewest samples at rest that may contradict a stated noise", JUDGEMENT)
+    min_record: int = setting(16, "1", "fewest samples of a record at rest that is used", JUDGEMENT)
+    min_rest_samples: int = setting(
+        40, "1", "fewest samples at rest, over all runs, for a noise model; with fewer the noise is white and as stated",
+        JUDGEMENT,
+    )
+    still_ratio: float = setting(
+        1.2, "1", "deviation after a trip over that before the trips up to which the rope is still again", JUDGEMENT
+    )
+    least_trend: int = setting(30, "1", "samples of a record from which on its slope is unknown as well as its mean", JUDGEMENT)
+    max_order: int = setting(12, "1", "highest order of the autoregression", JUDGEMENT)
+    samples_per_coefficient: int = setting(10, "1", "fewest samples at rest for each coefficient", JUDGEMENT)
+    max_reflection: float = setting(0.999, "1", "largest reflection coefficient; keeps the noise stationary", JUDGEMENT)
+    refined_length: int = setting(
+        300, "1", "samples of the longest record up to which coefficients are refined by restricted likelihood",
+        f"{DERIVED}: the bias of a correlation by an unknown mean and slope is about 6 / samples",
+    )  # fmt: skip
+    max_lags: int = setting(2000, "1", "most lags of the autocorrelation", JUDGEMENT)
+    negligible_correlation: float = setting(1e-4, "1", "autocorrelation that counts as none", JUDGEMENT)
+    upper_limit: float = setting(0.95, "1", "confidence of the upper limit at which an unstated deviation is taken", JUDGEMENT)
+    largest_upper_limit: float = setting(1.5, "1", "most by which that limit exceeds the estimate", JUDGEMENT)
     contradiction_factor: float = setting(
         1.4, "1", "ratio of estimated to stated noise that counts as a contradiction", JUDGEMENT
     )
     contradiction_width: float = setting(
-        2.4, "1", "widening of that ratio by width / sqrt(samples)",
+        2.4, "1", "widening of that ratio by width / sqrt(independent samples)",
         f"{DERIVED}: two standard errors of an estimate from the median of differences",
     )  # fmt: skip
     quantisation_ratio: float = setting(
@@ -57,8 +80,15 @@ class Noise:
         "estimated over stated noise below which the channel is coarsely quantised, and the stated noise holds",
         JUDGEMENT,
     )
-    min_estimate_samples: int = setting(
-        20, "1", "fewest samples at rest for an estimate where no noise is stated; with fewer the whole run is used", JUDGEMENT
+    recurrence: int = setting(4, "1", "mean samples on each level of a signal that counts as quantised", JUDGEMENT)
+    dithering: float = setting(
+        2.0, "1", "resolution over deviation above which a signal at rest stays on one level, and its mean is off as a whole",
+        f"{DERIVED}: the error of a mean of rounded normal samples, exp(-2 pi^2 s^2 / q^2), is 0.7 % of a step at s = q / 2",
+    )  # fmt: skip
+    differences: int = setting(6, "1", "order of the differences that tell vibration from the rope's motion", JUDGEMENT)
+    least_factor: float = setting(1.3, "1", "least ratio of the noise in motion to that at rest that counts", JUDGEMENT)
+    factor_width: float = setting(
+        5.0, "1", "the same in standard errors of the ratio: sixth differences of white noise are correlated", JUDGEMENT
     )
     floor: float = setting(1e-9, "SI", "least noise where none is stated, absolute part", "keeps a constant channel finite")
     floor_share: float = setting(1e-4, "1", "the same, share of the channel's standard deviation", JUDGEMENT)

@@ -38,6 +38,13 @@ class Screening:
         0.7, "1", "cosine between responses, plant projected out, above which two effects are indistinguishable",
         "trials with twin effects: drag and dry friction had 0.82",
     )  # fmt: skip
+    sizes: tuple[float, ...] = setting(
+        (1.0, 3.0, 10.0), "typical values", "sizes at which effects are screened besides the least", JUDGEMENT
+    )
+    delays: tuple[float, ...] = setting(
+        (-0.2, -0.1, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6), "s", "delays at which instruments are screened",
+        f"{DERIVED}: a delay is fitted from a quarter period off; the rope's shortest period is about half a second",
+    )  # fmt: skip
     close_fit: float = setting(
         5.0, "1", "reduced chi-square of the plant's fit below which screening uses its derivatives only", JUDGEMENT
     )
@@ -59,6 +66,13 @@ class Candidates:
     max_pairs: int = setting(2, "1", "second effects that are fitted with the first", JUDGEMENT)
     max_mass_fits: int = setting(2, "1", "effects screened at other masses that are fitted", JUDGEMENT)
     mass_improvement: float = setting(0.7, "1", "share of the best fit's chi-square that they must reach in screening", JUDGEMENT)
+    close_score: float = setting(
+        7.0, "1", "log score below the best one's up to which a fit is continued on the full mesh",
+        f"{DERIVED}: a probability of 0.001",
+    )
+    explained: float = setting(
+        1.1, "1", "reduced chi-square that counts as explained: below it effects are not screened at several sizes", JUDGEMENT
+    )
     mass_threshold: float = setting(
         2.0, "1", "reduced chi-square of the best fit above which effects are screened at other masses", f"{CAMPAIGNS}, office28"
     )
@@ -108,7 +122,6 @@ class Experiments:
         f"{DERIVED}: 1 / 1.5 less a margin",
     )
     conclusive_probability: float = setting(0.95, "1", "probability of a verdict above which no run is proposed", JUDGEMENT)
-    assumed_noise: float = setting(0.01, "1", "noise over a channel's standard deviation where none is stated", JUDGEMENT)
 
 
 FREQUENCIES, SCREENING, CANDIDATES, VERDICT, EXPERIMENTS = Frequencies(), Screening(), Candidates(), Verdict(), Experiments()
