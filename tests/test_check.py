@@ -9,9 +9,11 @@ import pandas as pd
 import pytest
 
 import comprope_system
+from comprope.errors import InputError
 from comprope.rope.model_file import dump, with_changes
 from comprope_system.cli import main
 from comprope_system.identification.comparison.nrmse import channel_error, moves
+from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.measurements.jerk_limited_profile import jerk_limited
 from comprope_system.report.plot_style import label, legend, panels, plain
 
@@ -176,3 +178,9 @@ def test_the_error_of_a_channel_that_never_moves_is_not_defined():
     still, moving = np.full(50, 3e-3), np.linspace(0.0, 1e-3, 50)
     assert np.isnan(channel_error(still, moving, 1e-4)) and np.isfinite(channel_error(moving, still, 1e-4))
     assert not moves(still * 1e-3) and moves(moving) and not moves(np.array([]))
+
+
+def test_a_campaign_without_any_value_is_refused(campaign):
+    spoil(campaign, **{name: lambda v: np.nan * v for name in ("cw_low", "car_low", "axle", "turning")})
+    with pytest.raises(InputError, match="no channel has values in a fit run"):
+        load_campaign(campaign)

@@ -60,6 +60,9 @@ def load_campaign(folder: str | Path) -> Campaign:
     runs = [_collect(found, lambda one=one: read_run(path, one, described, model)) for one in described.runs]
     if not any(one.role == "fit" for one in described.runs):
         found.append(f'{path}: runs: at least one with role = "fit" is needed')
+    fit = [run for run in runs if run is not None and run.role == "fit"]
+    if not found and not any(np.isfinite(value).any() for run in fit for value in run.values.values()):
+        found.append(f"{path}: no channel has values in a fit run")
     if found or model is None:
         raise InputError("\n".join(found))
     channels = {one.column: one for one in described.channels}
