@@ -94,23 +94,24 @@ def refit_from_other_masses(
     return list(fits.values())
 
 
-def best_on_full_mesh(context: FitContext, found: Sequence[CandidateFit]) -> list[CandidateFit]:
-    """The candidate fits, those with a chance to be the verdict on the full mesh."""
+def best_on_full_mesh(
+    context: FitContext, found: Sequence[CandidateFit], known: dict[int, CandidateFit]
+) -> list[CandidateFit]:
+    """The candidate fits, those with a chance to be the verdict on the full mesh; `known` keeps these, by the fit's identity."""
     if context.problem.coarse == context.full_problem.coarse:
         return list(found)
     count = len(context.problem.data)
     top = max((one.log_score(count) for one in found), default=0.0)
-    return [
-        _on_full_mesh(context, one) if one.refined and one.log_score(count) > top - CANDIDATES.close_score else one
-        for one in found
-    ]
+    promising = [one for one in found if one.refined and one.log_score(count) > top - CANDIDATES.close_score]
+    known |= {id(one.fitted): _on_full_mesh(context, one) for one in promising if id(one.fitted) not in known}
+    return [known.get(id(one.fitted), one) for one in found]
 
 
 def _on_full_mesh(context: FitContext, one: CandidateFit) -> CandidateFit:
     """The candidate fit on the full mesh; unchanged where the model cannot be simulated there."""
     context.report_progress(f"{one.hypothesis.effect}: fit on the full mesh")
     try:
-        return one._replace(fitted=fit_on_full_mesh(context.full_problem, one.fitted, context.origin))
+        return one._replace(fitted=fit_on_full_mesh(context.full_problem, one.fitted, context.origin, thorough=True))
     except SimulationError:
         return one
 

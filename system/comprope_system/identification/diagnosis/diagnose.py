@@ -99,7 +99,7 @@ def diagnose(
     on_coarse_mesh = evaluate(rough, None, np.zeros(len(PLANT_PARAMETERS)), origin)
     baseline = fit_with_mass_search(rough, on_coarse_mesh, origin)
     if rough.coarse != problem.coarse:
-        baseline = fit_on_full_mesh(problem, baseline, origin)
+        baseline = fit_on_full_mesh(problem, baseline, origin, thorough=False)
     initial_fit = replace(on_coarse_mesh, predictions=nominal)
     context = FitContext(problem, problem.coarsened(baseline.point, baseline.predictions), origin, baseline, report_progress)
     report_progress("linear screening of all effects")
@@ -110,15 +110,16 @@ def diagnose(
         about = (baseline,) if close else (baseline, initial_fit)
         screened = with_sizes(screened, screen_at_sizes(problem, origin, about))
     found = fit_candidates(context, screened)
-    finished = best_on_full_mesh(context, found)
+    on_full_mesh: dict[int, CandidateFit] = {}
+    finished = best_on_full_mesh(context, found, on_full_mesh)
     if least_chi_square(finished, baseline.chi_square) > CANDIDATES.mass_threshold * len(problem.data):
         report_progress("linear screening at other masses of the rope")
         found = refit_from_other_masses(context, screen_at_other_masses(rough, origin, on_coarse_mesh), found)
-        finished = best_on_full_mesh(context, found)
+        finished = best_on_full_mesh(context, found, on_full_mesh)
     diagnosis = _assembled(campaign, problem, nominal, baseline, finished)
     if diagnosis.kind == "unknown_effect" and (pair := fit_pair(context, found)):
         found = with_single_fits(context, found, pair)
-        return _assembled(campaign, problem, nominal, baseline, best_on_full_mesh(context, found))
+        return _assembled(campaign, problem, nominal, baseline, best_on_full_mesh(context, found, on_full_mesh))
     return diagnosis
 
 

@@ -101,18 +101,21 @@ def gauss_newton(
     return best
 
 
-def fit_on_full_mesh(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:
-    """A fit to a coarsened problem continued on the full mesh, with the derivatives of the coarse one.
+def fit_on_full_mesh(
+    problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint, *, thorough: bool
+) -> FitResult:
+    """A fit to a coarsened problem continued on the full mesh, with the derivatives of the coarse one to begin with.
 
-    One that leaves much more than noise is only evaluated there: what the coarse mesh errs is little beside that. Raises
-    `SimulationError` if the model cannot be simulated there.
+    Where much more is left than noise, the coarse mesh tells little of the minimum: a `thorough` fit then computes derivatives
+    anew, and another one is only evaluated. Raises `SimulationError` if the model cannot be simulated there.
     """
     (predictions,) = problem.predictions(fitted.point)
     residual = problem.residual(predictions)
     there = replace(fitted, predictions=predictions, chi_square=float(residual @ residual))
-    if there.chi_square > GAUSS_NEWTON.far_from_data * len(problem.data):
+    far = there.chi_square > GAUSS_NEWTON.far_from_data * len(problem.data)
+    if far and not thorough:
         return there
-    return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base, initial_fit=there, renew=False)
+    return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base, initial_fit=there, renew=far)
 
 
 def evaluate(problem: LeastSquaresProblem, hypothesis: Hypothesis | None, x: Floats, base: ParameterPoint) -> FitResult:

@@ -92,7 +92,7 @@ class GaussNewton:
         6.0, "1", "factor by which the prediction must exceed the limit to end a fit earlier", JUDGEMENT
     )
     far_from_data: float = setting(
-        5.0, "1", "reduced chi-square above which a fit on the coarse mesh is not continued on the full one", JUDGEMENT
+        5.0, "1", "reduced chi-square above which the coarse mesh tells little of a fit's minimum on the full one", JUDGEMENT
     )
     step_fractions: tuple[float, ...] = setting((0.3, 0.1, 0.03), "1", "shares of a step that are tried if it fails", JUDGEMENT)
 
