@@ -30,23 +30,27 @@ def main() -> None:
     options.add_argument("--size", type=float)
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--before", type=float, default=0.0, help="seconds that all goes on before the record begins")
+    options.add_argument("--correlation", type=float, default=0.0, help="of the noise from sample to sample, as of filtered lasers")
+    options.add_argument("--unstated", action="store_true", help="campaign.toml states no noise")
     options.add_argument("--random", metavar="FIRST:LAST")
     options.add_argument("--jobs", type=int, default=1)
     options.add_argument("--list", action="store_true")
     chosen = options.parse_args()
     site = SITES[chosen.site]
+    instruments = {"correlation": chosen.correlation, "stated": not chosen.unstated}
     if chosen.list:
         listed()
     elif chosen.random:
         first, _, last = chosen.random.partition(":")
         seeds = range(int(first), int(last or first) + 1)
         with ProcessPoolExecutor(chosen.jobs, mp_context=multiprocessing.get_context("spawn")) as executor:
-            plans, folders = [random_plan(seed, site) for seed in seeds], [chosen.out / f"{seed:04d}" for seed in seeds]
+            plans = [replace(random_plan(seed, site), **instruments) for seed in seeds]
+            folders = [chosen.out / f"{seed:04d}" for seed in seeds]
             for line in executor.map(made, plans, folders):
                 print(line, flush=True)
     else:
         plan = draw_plan(chosen.seed, tuple(chosen.cause or ["nothing"]), chosen.level, site)
-        plan = replace(plan, before=chosen.before)
+        plan = replace(plan, before=chosen.before, **instruments)
         print(made(plan if chosen.size is None else sized(plan, chosen.size), chosen.out))
 
 

@@ -270,3 +270,11 @@ def test_the_truth_stands_beside_the_campaign(tmp_path):
     assert truth["causes"]["guide_friction"] == {"coulomb_force": 80.0}
     assert load(tmp_path / "tower50.toml").rope.bending_stiffness == 20.0
     assert score_campaigns.campaigns([tmp_path]) == [tmp_path.resolve()]
+
+
+def test_noise_of_filtered_instruments_has_the_variance_of_white_noise_and_its_correlation() -> None:
+    white = np.random.default_rng(1).normal(size=100000)
+    found = plants.filtered(white, 0.8)
+    assert np.std(found) == pytest.approx(1.0, abs=0.02)
+    assert np.corrcoef(found[1:], found[:-1])[0, 1] == pytest.approx(0.8, abs=0.01)
+    assert plants.filtered(white, 0.0) is white

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.signal import lfilter
 
 from . import campaign_files, faults
 from .causes import CAUSES
@@ -15,6 +16,7 @@ from .tower import Floats
 from .trip import trip
 
 OFF = {"EI": 0.2, "bending_damping": 0.2, "mass_per_length": 0.2, "friction": 0.2}  # how far the plant may be off the model
+CAR = "car_position"
 AFOOT = 0.5  # s before the trip in which the mean at rest is no longer taken
 
 
@@ -29,6 +31,8 @@ class Plan:
     level: float | None = None
     before: float = 0.0  # s that all goes on before the record begins: a building sways not only from then on
     site: Site = TOWER50
+    correlation: float = 0.0  # of the instruments' noise from sample to sample, first order
+    stated: bool = True  # whether campaign.toml states the noise
 
     @property
     def kind(self) -> str:
@@ -99,13 +103,23 @@ def noisy(plan: Plan, rows: faults.Rows, rng: np.random.Generator) -> faults.Row
         if fault.__name__ in plan.causes:
             rows = fault(rows, plan.causes[fault.__name__], rng)
     noise = plan.site.noise
+    phi = plan.correlation
     rows = {
-        name: values if name == "time" else values + rng.normal(0.0, noise.get(name, plan.site.encoder), len(values))
+        name: values
+        if name == "time"
+        else values + filtered(rng.normal(0.0, noise.get(name, plan.site.encoder), len(values)), 0.0 if name == CAR else phi)
         for name, values in rows.items()
     }
     if "outliers" in plan.causes:
         rows = faults.outliers(rows, plan.causes["outliers"], rng, noise)
     return faults.gaps(rows, plan.causes["gaps"], rng) if "gaps" in plan.causes else rows
+
+
+def filtered(white: Floats, phi: float) -> Floats:
+    """Noise of the same variance whose samples are correlated by `phi` with the ones before."""
+    if phi == 0.0:
+        return white
+    return lfilter([1.0], [1.0, -phi], np.concatenate([white[:1], np.sqrt(1.0 - phi**2) * white[1:]]))
 
 
 def write(plan: Plan, folder: Path) -> None:
@@ -119,7 +133,7 @@ def write(plan: Plan, folder: Path) -> None:
         if name == lightest and plan.kind != "nothing":
             shift = shifted(site, rows, measured(plan, *simulate_run(plan, name, {}), {}))
         campaign_files.table(folder / f"{name}.csv", noisy(plan, rows, np.random.default_rng([plan.seed, 3, k])))
-    campaign_files.describe(folder, site, plan.seed, stated_noise(plan))
+    campaign_files.describe(folder, site, plan.seed, stated_noise(plan) if plan.stated else None)
     truth = {
         "site": site.name, "kind": plan.kind, "causes": plan.causes, "column": plan.column, "level": plan.level,
         "seed": plan.seed, "before": plan.before, "plant": plan.plant, "near": near(plan), "shift": shift,

@@ -42,11 +42,11 @@ CHANNEL = (
 RUN = '\n[[runs]]\nfile = "{name}.csv"\nrole = "{role}"\nset = {{ "sheave.mass" = {mass}, "sheave.inertia" = {inertia:.3f} }}\n'
 
 
-def describe(folder: Path, site: Site, seed: int, stated: float) -> None:
-    """Write campaign.toml and the model under test; `stated` is the noise stated over the true one."""
+def describe(folder: Path, site: Site, seed: int, stated: float | None) -> None:
+    """Write campaign.toml and the model under test; `stated` is the noise stated over the true one, None for none stated."""
     text = f'name = "{site.title}, {seed}"\nmodel = "{site.name}.toml"\n'
     for column, channel in site.channels.items():
-        text += described(site, column, channel) + f"noise = {channel.noise * stated:.4g}\n"
+        text += described(site, column, channel) + ("" if stated is None else f"noise = {channel.noise * stated:.4g}\n")
     for name, run in site.runs.items():
         mass, inertia = site.tower.sheave_mass * run.share, site.tower.inertia * run.share
         text += RUN.format(name=name, role=run.role, mass=mass, inertia=inertia)
