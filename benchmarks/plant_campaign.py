@@ -30,7 +30,7 @@ def main() -> None:
     options.add_argument("--size", type=float)
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--before", type=float, default=0.0, help="seconds that all goes on before the record begins")
-    options.add_argument("--correlation", type=float, default=0.0, help="of the noise from sample to sample, as of filtered lasers")
+    options.add_argument("--correlation", type=float, default=0.0, help="of the noise from sample to sample")
     options.add_argument("--unstated", action="store_true", help="campaign.toml states no noise")
     options.add_argument("--random", metavar="FIRST:LAST")
     options.add_argument("--jobs", type=int, default=1)
