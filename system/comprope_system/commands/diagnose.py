@@ -6,14 +6,19 @@ import typer
 
 import comprope_system
 
-from ._parameters import CAMPAIGN, JOBS, JSON, REPORT
+from ._parameters import CAMPAIGN, EXECUTOR, JOBS, JSON, REPORT
 from ._terminal import OutputFile, finish, progress_display, require_files
 
 WITHOUT = Annotated[list[str] | None, typer.Option(metavar="EFFECT", help="Exclude an effect. Repeatable.")]
 
 
 def diagnose(
-    campaign: CAMPAIGN, json: JSON = None, report: REPORT = None, jobs: JOBS = None, without: WITHOUT = None
+    campaign: CAMPAIGN,
+    json: JSON = None,
+    report: REPORT = None,
+    jobs: JOBS = None,
+    executor: EXECUTOR = None,
+    without: WITHOUT = None,
 ) -> None:
     """Identify the physical effect that is missing from the model, with its probability and detection limits.
 
@@ -21,5 +26,5 @@ def diagnose(
     """
     require_files(OutputFile(json), OutputFile(report, "page"))
     with progress_display() as progress:
-        result = comprope_system.diagnose(campaign, without=without or (), jobs=jobs, progress=progress)
+        result = comprope_system.diagnose(campaign, without=without or (), executor=executor, jobs=jobs, progress=progress)
     finish(result, (json, result.save_json), (report, result.save_html))

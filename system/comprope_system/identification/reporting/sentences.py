@@ -31,7 +31,7 @@ def verdict_sentences(validated: ValidatedDiagnosis) -> list[str]:
     excluded = [f"Excluded by the user: {', '.join(sorted(out))}."] if (out := found.problem.ruled_out) else []
     implausible = _implausible(found)
     if found.verdict:
-        return [_missing_effect(validated), *_indistinguishable(found), *implausible, *excluded]
+        return [_missing_effect(validated), *implausible, *excluded]
     if found.kind == "adequate":
         text = "Nothing is missing: with refitted plant parameters the residual is explained by measurement noise"
         return [f"{text} (probability {probability(found.probabilities['adequate'])}).", *implausible, *excluded]
@@ -48,6 +48,9 @@ def _missing_effect(validated: ValidatedDiagnosis) -> str:
     found, top = validated.diagnosis, ranking(validated)[0]
     others = top.get("together_with", {})
     names = " and ".join([full_name(found.ranking[0].hypothesis), *others])
+    rivals = [f" or {name} ({probability(found.probabilities[name])})" for name in likely_rivals(found)]
+    share = f"{names} ({probability(top['probability'])}){''.join(rivals)}, which these data hardly distinguish"
+    verdict = share if rivals else f"{names}, probability {probability(top['probability'])}"
     kind = "Faulty instrument" if found.kind == "instrument" else "Missing effect"
     left = reduced_chi_square(validated, found.ranking[0])
     rest = (
@@ -56,7 +59,7 @@ def _missing_effect(validated: ValidatedDiagnosis) -> str:
         else f" Reduced chi-square with it {number(left)}: another effect may be missing."
     )
     return (
-        f"{kind}: {names}, probability {probability(top['probability'])}. With it the NRMSE decreases from "
+        f"{kind}: {verdict}. With {names if rivals else 'it'} the NRMSE decreases from "
         f"{percent(top['error_before'])} to {percent(top['error_after'])} on the fit runs and from "
         f"{percent(top['validate_error_before'])} to {percent(top['validate_error_after'])} on the validation runs; noise alone "
         f"would give {percent(validated.before.noise_nrmse('fit'))} and "
@@ -73,10 +76,11 @@ def _implausible(found: Diagnosis) -> list[str]:
     return [f"The fit changes plant parameters implausibly far from their priors: {'; '.join(changed)}."] if changed else []
 
 
-def _indistinguishable(found: Diagnosis) -> list[str]:
-    others = sorted({a if b == found.verdict else b for a, b in found.indistinguishable if found.verdict in (a, b)})
+def likely_rivals(found: Diagnosis) -> list[str]:
+    """Effects with nearly the response of the verdict's and a probability that counts, the most probable first."""
+    others = {a if b == found.verdict else b for a, b in found.indistinguishable if found.verdict in (a, b)}
     likely = [name for name in others if found.probabilities.get(name, 0.0) > VERDICT.likely_probability]
-    return [f"These data hardly distinguish it from {', '.join(likely)}."] if likely else []
+    return sorted(likely, key=lambda name: -found.probabilities[name])
 
 
 def update_sentence(one: UpdatedModel) -> str:
