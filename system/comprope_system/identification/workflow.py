@@ -14,6 +14,7 @@ from .diagnosis.diagnose import diagnose as rank_effects
 from .diagnosis.experiment_design import is_inconclusive, rank_candidate_runs
 from .diagnosis.held_out_validation import validate
 from .hypotheses.model_effects import effect_values, hypotheses_named, require_effects
+from .hypotheses.plant_parameters import plant_values, with_tolerances
 from .model_updating.add_effect import add_effect
 from .model_updating.stepwise_selection import select_stepwise
 from .prediction.parameter_point import ParameterPoint
@@ -123,7 +124,9 @@ def improve(
 
 
 def _loaded(campaign: CampaignInput) -> Campaign:
-    return campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
+    loaded = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
+    with_tolerances(loaded.tolerances, plant_values(loaded.model))  # refuses what is no tolerance before anything is simulated
+    return loaded
 
 
 def _stages(progress: Progress) -> ProgressCallback:

@@ -84,6 +84,13 @@ class RunSpec(Component):
     motion: Motion | None = Field(default=None, description="of this run alone; default that of the campaign")
 
 
+class Tolerance(Component):
+    """How well a parameter of the model is known: one standard deviation of its prior."""
+
+    relative: float | None = Field(default=None, gt=0.0, le=2.0, description="share of its value, e.g. 0.05 for five per cent")
+    absolute: float | None = Field(default=None, gt=0.0, description="the same in the unit of the parameter")
+
+
 class CampaignFile(Component):
     """Content of campaign.toml."""
 
@@ -94,6 +101,10 @@ class CampaignFile(Component):
     counterweight: MotionColumn = Field(default_factory=MotionColumn, description="the same of the counterweight")
     motion: Motion = Field(
         default="auto", description='"exact": motions are taken as they are; "auto": where they are no smooth trips'
+    )
+    plant: dict[str, Tolerance | Literal["fixed"]] = Field(
+        default_factory=dict,
+        description='how well parameters of the model are known: { "rope.mass_per_length" = { relative = 0.02 } } or "fixed"',
     )
     channels: tuple[Channel, ...] = Field(description="the channels, at least one")
     runs: tuple[RunSpec, ...] = Field(description="the runs, at least one")

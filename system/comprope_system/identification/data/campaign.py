@@ -3,10 +3,11 @@
 All files are read and checked before an error is raised, so that it names every problem of all files.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
 
 from ...measurements.anchoring import Landings
-from ...measurements.campaign_file import CampaignFile, Channel, RunSpec, read_campaign_file
+from ...measurements.campaign_file import CampaignFile, Channel, RunSpec, Tolerance, read_campaign_file
 from ...measurements.end_motions import EndMotions, EndSignals, recover_ends
 from ...measurements.run_table import RunTable, read_run_table
 from ...measurements.units import UNITS
@@ -39,6 +40,7 @@ class Campaign:
     channels: dict[str, Channel]
     runs: tuple[Run, ...]
     notes: tuple[str, ...] = field(default=())
+    tolerances: Mapping[str, Tolerance | Literal["fixed"]] = field(default_factory=dict)
 
     @cached_property
     def noise(self) -> dict[str, ChannelNoise]:
@@ -67,7 +69,9 @@ def load_campaign(folder: str | Path) -> Campaign:
         raise InputError("\n".join(found))
     channels = {one.column: one for one in described.channels}
     complete = tuple(run for run in runs if run is not None)
-    return Campaign(described.name, path.parent, model, path.parent / described.model, channels, complete)
+    return Campaign(
+        described.name, path.parent, model, path.parent / described.model, channels, complete, tolerances=described.plant
+    )
 
 
 def campaign_path(folder: str | Path) -> Path:

@@ -18,7 +18,6 @@ from comprope.rope.effects import RopeModel, names_of
 from ..data.runs import Channel, Run
 from ..data.whitening import WhitenedChannel
 from ..estimation.gauss_newton import FitResult
-from ..estimation.linearisation import fit_directions
 from ..estimation.weighted_least_squares import LeastSquaresProblem
 from ..prediction.parameter_point import Predictions, run_at_point
 from ..prediction.replay import relative_to_rest
@@ -71,7 +70,7 @@ def sway_responses(
 
 def explained_squares(problem: LeastSquaresProblem, fitted: FitResult, responses: Floats) -> Floats:
     """Decrease of chi-square (frequencies,) of one run by a sway of each frequency, with the plant refitted linearly."""
-    others = fit_directions(fitted.hypothesis)
+    others = problem.directions(fitted.hypothesis)
     plant, _ = np.linalg.qr(np.vstack([fitted.jacobian, np.diag([1.0 / one.prior for one in others])]))
     left = _orthogonal_to(plant, np.append(problem.residual(fitted.predictions), np.zeros(len(others))))
     found = []

@@ -13,7 +13,6 @@ from ..estimation.gauss_newton import FitResult
 from ..estimation.parameter_estimates import Estimate, keys_set_by_runs, plant_estimates, standard_error_scale
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.model_effects import effect_name, short_names
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
 from ..settings import VERDICT
 from .diagnose import Candidate, Diagnosis
@@ -67,6 +66,7 @@ def to_json(validated: ValidatedDiagnosis) -> dict[str, Any]:
             for name, one in (("as_it_stands", validated.before), ("plant_refitted", validated.refitted))
         },
         "plant": {key: one.to_json() for key, one in plant(diagnosis).items()},
+        "plant_priors": plant_priors(diagnosis),
         "ruled_out": sorted(diagnosis.problem.ruled_out),
         "data": count,
         "remarks": list(validated.remarks),
@@ -138,7 +138,7 @@ def plant(diagnosis: Diagnosis) -> dict[str, Estimate]:
 def implausible_parameters(diagnosis: Diagnosis) -> list[tuple[str, float, float]]:
     """Plant parameters too far from their prior: key, relative change, and deviation in prior standard deviations."""
     fitted = _best(diagnosis)
-    moved = [(one, float(c), float(c) / one.prior) for one, c in zip(PLANT_PARAMETERS, fitted.coefficients, strict=False)]
+    moved = [(one, float(c), float(c) / one.prior) for one, c in zip(diagnosis.problem.plant, fitted.coefficients, strict=False)]
     return [(one.name, expm1(c), off) for one, c, off in moved if one.relative and abs(off) > VERDICT.implausible_deviation]
 
 
@@ -147,11 +147,26 @@ def _best(diagnosis: Diagnosis) -> FitResult:
     return diagnosis.ranking[0].fitted if diagnosis.verdict and diagnosis.ranking[0].refined else diagnosis.baseline
 
 
+def plant_priors(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
+    """For each plant parameter the standard deviation of its prior, and how far the fit moved it in standard deviations."""
+    fitted, problem = _best(diagnosis), diagnosis.problem
+    return {
+        one.name: {
+            "standard_deviation": one.prior, "relative": one.relative, "fixed": one.name in problem.held, "origin": one.origin,
+            "moved": 0.0 if one.name in problem.held else float(c) / one.prior,
+        }
+        for one, c in zip(problem.plant, fitted.coefficients, strict=False)
+    }  # fmt: skip
+
+
 def parameter_shifts(diagnosis: Diagnosis) -> list[tuple[str, Estimate, float]]:
     """Plant parameters: key, estimate, and deviation in prior standard deviations, largest deviation first."""
     fitted = _best(diagnosis)
     values = plant(diagnosis)
-    moved = [(one.name, values[one.name], float(fitted.coefficients[k]) / one.prior) for k, one in enumerate(PLANT_PARAMETERS)]
+    moved = [
+        (one.name, values[one.name], float(c) / one.prior)
+        for one, c in zip(diagnosis.problem.plant, fitted.coefficients, strict=False)
+    ]
     replaced = keys_set_by_runs(diagnosis.campaign)
     return sorted((one for one in moved if one[0] not in replaced), key=lambda one: -abs(one[2]))
 

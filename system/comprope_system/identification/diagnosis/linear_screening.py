@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from ..estimation.effect_responses import effect_responses
 from ..estimation.gauss_newton import FitResult
-from ..estimation.linearisation import fit_directions, instrument_jacobian, point_at
+from ..estimation.linearisation import instrument_jacobian, point_at
 from ..estimation.mass_search import MASS, fits_at_masses
-from ..estimation.model_score import complexity_penalty, penalised_chi_square, prior_cost
+from ..estimation.model_score import complexity_penalty, penalised_chi_square
 from ..estimation.per_run_phase import solve_per_run_phases
 from ..estimation.weighted_least_squares import LeastSquaresProblem, solve_in_scale
 from ..hypotheses.effect_hypotheses import Hypothesis, effect_hypotheses, instrument_hypotheses
@@ -31,7 +31,8 @@ Responses = Mapping[Hypothesis, Floats]
 
 @dataclass(frozen=True)
 class ScreenedHypothesis:
-    """Hypothesis with its linear prediction: coefficients `start` (k,), plant first, and the chi-square that it would leave.
+    """Hypothesis with its linear prediction: coefficients `start` (k,), plant first, the chi-square that it would leave, and the
+    cost of the plant's coefficients in the score.
 
     `orthogonal_part` (N, directions) is its response with the plant's projected out, `distinct_share` the norm of that over
     the norm of the response; `alternatives` is the number of variants of the effect that were screened. `sized`: the effect was
@@ -41,6 +42,7 @@ class ScreenedHypothesis:
     hypothesis: Hypothesis
     start: Floats
     chi_square: float
+    prior_cost: float
     orthogonal_part: Floats
     distinct_share: float
     alternatives: int
@@ -50,11 +52,6 @@ class ScreenedHypothesis:
     def penalised_chi_square(self) -> float:
         """Chi-square with complexity penalty and prior cost included."""
         return penalised_chi_square(self.chi_square, complexity_penalty(self.hypothesis, self.alternatives) + self.prior_cost)
-
-    @property
-    def prior_cost(self) -> float:
-        """Cost of the plant's coefficients in the score."""
-        return prior_cost(self.start)
 
     @cached_property
     def basis(self) -> Floats:
@@ -112,7 +109,8 @@ def screen_about_fits(
     screened: list[ScreenedHypothesis] = []
     close = nominal is None or baseline.chi_square < SCREENING.close_fit * len(problem.data)
     for fit in [baseline] if nominal is None or close else [baseline, nominal]:
-        plant = solve_in_scale(problem.residual(fit.predictions), fit.jacobian, fit_directions(fit.hypothesis), fit.coefficients)
+        residual, directions = problem.residual(fit.predictions), problem.directions(fit.hypothesis)
+        plant = solve_in_scale(residual, fit.jacobian, directions, fit.coefficients)
         share = baseline.chi_square / plant.chi_square
         for one in responses:
             screened += _screened_variants(problem, one, responses, fit, share)
@@ -148,19 +146,21 @@ def _screened_variants(
     """
     response = responses[one]
     variants = sum(other.effect == one.effect for other in responses)
-    orthogonal, distinct = orthogonal_response(response, fit)
+    orthogonal, distinct = orthogonal_response(problem, response, fit)
     start = np.concatenate([fit.coefficients, np.zeros(response.shape[1])])
-    matrix, directions = np.hstack([fit.jacobian, response]), [*fit_directions(fit.hypothesis), *one.directions]
+    matrix, directions = np.hstack([fit.jacobian, response]), [*problem.directions(fit.hypothesis), *one.directions]
     solution = solve_in_scale(problem.residual(fit.predictions), matrix, directions, start)
-    yield ScreenedHypothesis(one, solution.coefficients, share * solution.chi_square, orthogonal, distinct, variants)
+    cost = problem.prior_cost(solution.coefficients)
+    yield ScreenedHypothesis(one, solution.coefficients, share * solution.chi_square, cost, orthogonal, distinct, variants)
     if one.polar and len(problem.runs) > 1:
         with_phases, found, chi_square = solve_per_run_phases(problem, fit, response, one)
-        yield ScreenedHypothesis(with_phases, found, share * chi_square, orthogonal, distinct, 2 * variants)
+        cost = problem.prior_cost(found)
+        yield ScreenedHypothesis(with_phases, found, share * chi_square, cost, orthogonal, distinct, 2 * variants)
 
 
-def orthogonal_response(response: Floats, fit: FitResult) -> tuple[Floats, float]:
+def orthogonal_response(problem: LeastSquaresProblem, response: Floats, fit: FitResult) -> tuple[Floats, float]:
     """Part of a response (N, k) that the parameters of a fit cannot imitate within their priors, and its share of the norm."""
-    others = fit_directions(fit.hypothesis)
+    others = problem.directions(fit.hypothesis)
     weights = np.vstack([fit.jacobian, np.diag([1.0 / p.prior for p in others])])
     padded = np.vstack([response, np.zeros((len(others), response.shape[1]))])
     orthogonal = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(response)]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from comprope.rope.effects import REGISTRY
 
 from ..estimation.gauss_newton import FitResult
-from ..estimation.linearisation import fit_directions, with_effect
+from ..estimation.linearisation import with_effect
 from ..estimation.weighted_least_squares import LeastSquaresProblem, solve_in_scale
 from ..hypotheses.effect_hypotheses import Hypothesis, effect_hypotheses, instrument_hypotheses
 from ..prediction.parameter_point import ParameterPoint, Predictions
@@ -136,10 +136,13 @@ def _at_size(
 ) -> ScreenedHypothesis:
     """Hypothesis screened about amplitude k at a size, `at` = (k, size, change of the whitened predictions (N,))."""
     k, size, change = at
-    others, count = fit_directions(fit.hypothesis), len(one.directions)
+    others, count = problem.directions(fit.hypothesis), len(one.directions)
     secant = np.outer(change / size, np.arange(count) == k)
     start = np.concatenate([fit.coefficients, size * (np.arange(count) == k)])
     matrix, directions = np.hstack([fit.jacobian, secant]), [*others, *one.directions]
     solution = solve_in_scale(problem.residual(fit.predictions) - change, matrix, directions, start)
-    orthogonal, distinct = orthogonal_response(secant, fit)
-    return ScreenedHypothesis(one, solution.coefficients, solution.chi_square, orthogonal, distinct, variants, sized=True)
+    orthogonal, distinct = orthogonal_response(problem, secant, fit)
+    cost = problem.prior_cost(solution.coefficients)
+    return ScreenedHypothesis(
+        one, solution.coefficients, solution.chi_square, cost, orthogonal, distinct, variants, sized=True
+    )

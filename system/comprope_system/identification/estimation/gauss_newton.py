@@ -16,8 +16,8 @@ from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions
 from ..settings import GAUSS_NEWTON
-from .linearisation import fit_directions, linearise, point_at
-from .model_score import penalised_chi_square, prior_cost
+from .linearisation import linearise, point_at
+from .model_score import penalised_chi_square
 from .weighted_least_squares import LeastSquaresProblem, Solution, scale_of, solve
 
 Floats = NDArray[np.float64]
@@ -75,13 +75,13 @@ def gauss_newton(
     updated, never computed anew. Raises `SimulationError` if the model
     cannot be simulated at `start`.
     """
-    directions, count, fresh = fit_directions(hypothesis), len(problem.data), True
+    directions, count, fresh = problem.directions(hypothesis), len(problem.data), True
     best = initial_fit or evaluate(problem, hypothesis, np.asarray(start, float), base)
     for iteration in range(GAUSS_NEWTON.max_iterations):
         # With a large residual the priors are weighed by its mean square: else an implausible plant would imitate the effect.
         scale = scale_of(best.chi_square, count)
         solution = solve(problem.residual(best.predictions), best.jacobian, directions, best.coefficients, scale)
-        best = _with_linear_prediction(best, solution)
+        best = _with_linear_prediction(problem, best, solution)
         trusted = iteration >= GAUSS_NEWTON.trusted_iteration
         if solution.chi_square > abandon_above * (1.0 if trusted else GAUSS_NEWTON.hopeless_factor):
             break
@@ -134,15 +134,15 @@ def _fit_result(
 ) -> FitResult:
     """Result at the coefficients x (k,), with a covariance yet to be found."""
     residual = problem.residual(predictions)
-    penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, fit_directions(hypothesis), strict=True)))
+    penalty = float(sum((c / one.prior) ** 2 for c, one in zip(x, problem.directions(hypothesis), strict=True)))
     point, covariance = point_at(hypothesis, list(x), base), np.zeros((len(x), len(x)))
     chi_square = float(residual @ residual)
-    return FitResult(hypothesis, point, predictions, x, covariance, jacobian, chi_square, penalty, prior_cost(x))
+    return FitResult(hypothesis, point, predictions, x, covariance, jacobian, chi_square, penalty, problem.prior_cost(x))
 
 
-def _with_linear_prediction(fitted: FitResult, solution: Solution) -> FitResult:
+def _with_linear_prediction(problem: LeastSquaresProblem, fitted: FitResult, solution: Solution) -> FitResult:
     """The fit with the covariance of its linear solution, and the lesser of both prior costs."""
-    least = min(prior_cost(fitted.coefficients), prior_cost(solution.coefficients))
+    least = min(problem.prior_cost(fitted.coefficients), problem.prior_cost(solution.coefficients))
     return replace(fitted, covariance=solution.covariance, prior_cost=least)
 
 
@@ -167,7 +167,7 @@ def _broyden_steps(
     With the step s and W = diag(prior^-2), J+ = J + (y+ - y - J s) (W s)' / (s' W s).
     """
     found, y = [], problem.whitened(best.predictions)
-    priors = np.array([one.prior for one in fit_directions(best.hypothesis)])
+    priors = np.array([one.prior for one in problem.directions(best.hypothesis)])
     reached = [best.coefficients + step for step in steps]
     predicted = problem.attempts(*(point_at(best.hypothesis, list(x), base) for x in reached))
     for x, step, predictions in zip(reached, steps, predicted, strict=True):

@@ -25,11 +25,6 @@ Floats = NDArray[np.float64]
 Tangents = tuple[dict[str, Floats], dict[int, dict[str, Floats]]]
 
 
-def fit_directions(hypothesis: Hypothesis | None) -> list[Direction]:
-    """Directions of a fit: those of the plant, then those of the effect."""
-    return [*PLANT_PARAMETERS, *(hypothesis.directions if hypothesis else ())]
-
-
 def point_at(hypothesis: Hypothesis | None, coefficients: Sequence[float], base: ParameterPoint) -> ParameterPoint:
     """Point of some coefficients (plant first), added to the effects of `base`."""
     names = [one.name for one in PLANT_PARAMETERS]
@@ -58,7 +53,7 @@ def linearise(
 
     Raises `SimulationError` where the simulation fails.
     """
-    here, directions = problem.with_held_fixed(point_at(hypothesis, list(x), base)), fit_directions(hypothesis)
+    here, directions = problem.with_held_fixed(point_at(hypothesis, list(x), base)), problem.directions(hypothesis)
     steps = [
         LINEARISATION.parameter_step if c + LINEARISATION.parameter_step <= one.upper else -LINEARISATION.parameter_step
         for c, one in zip(x, directions, strict=True)

@@ -18,7 +18,7 @@ from ..prediction.parameter_point import ParameterPoint, Predictions
 from ..prediction.replay import coarsening_factor
 from ..settings import MASS_SEARCH
 from .gauss_newton import FitResult, gauss_newton
-from .linearisation import fit_directions, point_at
+from .linearisation import point_at
 from .weighted_least_squares import LeastSquaresProblem, Solution, solve_in_scale
 
 Floats = NDArray[np.float64]
@@ -103,4 +103,4 @@ def _mass_grid(current: float) -> list[float]:
 
 def _refit_linearly(problem: LeastSquaresProblem, initial_fit: FitResult, predictions: Predictions, x: Floats) -> Solution:
     """All coefficients refitted about x (k,) with the derivatives of `initial_fit`."""
-    return solve_in_scale(problem.residual(predictions), initial_fit.jacobian, fit_directions(initial_fit.hypothesis), x)
+    return solve_in_scale(problem.residual(predictions), initial_fit.jacobian, problem.directions(initial_fit.hypothesis), x)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..hypotheses.plant_parameters import PLANT_PARAMETERS, Direction
 from ..settings import SCORE
 
 
@@ -28,12 +28,12 @@ def complexity_penalty(hypothesis: Hypothesis, alternatives: int) -> float:
     return SCORE.parameter_penalty * parameters + SCORE.run_phase_penalty * phases + log(alternatives)
 
 
-def prior_cost(coefficients: Sequence[float] | NDArray[np.float64]) -> float:
+def prior_cost(coefficients: Sequence[float] | NDArray[np.float64], plant: Sequence[Direction] = PLANT_PARAMETERS) -> float:
     """Cost of plant parameters away from their data sheets: negative logarithm of Student's t; coefficients of the plant first.
 
     A load cell that reads an eighth too low must not be explained by a sheave that is an eighth lighter, which fits as well.
     """
-    squares = [(float(c) / one.prior) ** 2 for c, one in zip(coefficients, PLANT_PARAMETERS, strict=False)]
+    squares = [(float(c) / one.prior) ** 2 for c, one in zip(coefficients, plant, strict=False)]
     return 0.5 * (SCORE.prior_degrees + 1.0) * sum(log1p(square / SCORE.prior_degrees) for square in squares)
 
 

@@ -14,7 +14,6 @@ from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import Direction
 from ..settings import ESTIMATES
 from .gauss_newton import FitResult
-from .linearisation import fit_directions
 from .weighted_least_squares import LeastSquaresProblem, solve_in_scale
 
 Floats = NDArray[np.float64]
@@ -37,7 +36,7 @@ def solve_per_run_phases(
     coefficients (those of `fit` first) and the chi-square.
     """
     pairs = np.hstack([jacobian * rows[:, None] for rows in problem.rows_of_runs])
-    count, others, residual = len(problem.runs), fit_directions(fit.hypothesis), problem.residual(fit.predictions)
+    count, others, residual = len(problem.runs), problem.directions(fit.hypothesis), problem.residual(fit.predictions)
     begin = np.concatenate([fit.coefficients, np.zeros(2 * count)])
     solution = solve_in_scale(residual, np.hstack([fit.jacobian, pairs]), [*others, *hypothesis.directions * count], begin)
     z = np.array([complex(*pair) for pair in solution.coefficients[len(others) :].reshape(count, 2)])

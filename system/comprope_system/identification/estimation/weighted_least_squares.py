@@ -14,9 +14,11 @@ from comprope.errors import SimulationError
 from ..data.campaign import Campaign
 from ..data.runs import Run
 from ..data.whitening import WhitenedChannel, stack, whiten_channel
-from ..hypotheses.plant_parameters import Direction
+from ..hypotheses.effect_hypotheses import Hypothesis
+from ..hypotheses.plant_parameters import Direction, fixed_parameters, plant_values, with_tolerances
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
 from ..prediction.replay import coarsening_factor, relative_to_rest
+from .model_score import prior_cost
 
 Floats = NDArray[np.float64]
 
@@ -49,6 +51,19 @@ class LeastSquaresProblem:
             return self
         change = self.whitened(on_coarse_mesh) - self.whitened(predictions)
         return replace(self, data=self.data + change, coarse=factor)
+
+    @cached_property
+    def plant(self) -> tuple[Direction, ...]:
+        """The plant parameters with the campaign's priors."""
+        return with_tolerances(self.campaign.tolerances, plant_values(self.campaign.model))
+
+    def directions(self, hypothesis: Hypothesis | None) -> list[Direction]:
+        """Directions of a fit: those of the plant, then those of the effect."""
+        return [*self.plant, *(hypothesis.directions if hypothesis else ())]
+
+    def prior_cost(self, coefficients: Floats) -> float:
+        """Cost of a fit's plant coefficients in the score."""
+        return prior_cost(coefficients, self.plant)
 
     def with_held_fixed(self, point: ParameterPoint) -> ParameterPoint:
         """The point with held plant parameters at their stated values."""
@@ -117,7 +132,8 @@ def build_problem(campaign: Campaign, runs: Sequence[Run], executor: Executor, n
             if one:
                 whitened_channels.append(one)
     data = np.concatenate([one.whiten(one.data) for one in whitened_channels]) if whitened_channels else np.zeros(0)
-    return LeastSquaresProblem(campaign, tuple(runs), whitened_channels, data, executor)
+    held = fixed_parameters(campaign.tolerances)
+    return LeastSquaresProblem(campaign, tuple(runs), whitened_channels, data, executor, held)
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,18 @@
 """Plant parameters that every fit adjusts, with the standard deviations of their priors."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import log1p
+from typing import Literal
 
+from comprope.errors import InputError
+from comprope.rope.parameters import Base
+from comprope.rope.simulator.rope import values_of
+
+from ...measurements.campaign_file import Tolerance
 from ..settings import HYPOTHESES
+
+Tolerances = Mapping[str, Tolerance | Literal["fixed"]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +39,7 @@ def _relative(key: str, prior: float, origin: str) -> Direction:
 
 
 CLOCK = "clock.offset"
+USER = "stated in campaign.toml"
 PLANT_PARAMETERS = (
     _relative("rope.bending_stiffness", 0.15, "engineering judgement: the stiffness of a stranded rope depends on its use"),
     _relative("rope.bending_damping", 0.4, "engineering judgement: hardly ever stated"),
@@ -46,3 +56,49 @@ PLANT_PARAMETERS = (
     # Delay of all channels against the car's position [s]: drive log and sensors may have different clocks.
     Direction(CLOCK, {}, 0.02, -0.5, 0.5, origin="engineering judgement: one or two samples of a logger"),
 )
+
+
+def plant_values(model: Base) -> dict[str, float]:
+    """Values of the parameters of a model by key, with the clock's."""
+    return values_of(model) | {CLOCK: 0.0}
+
+
+def with_tolerances(stated: Tolerances, values: Mapping[str, float]) -> tuple[Direction, ...]:
+    """The plant parameters with the priors that a user states; `values` are those of the model file by key.
+
+    Fixed parameters keep their prior here and are held by the fits. Raises `InputError` with one line for each tolerance that is
+    none.
+    """
+    problems = [line for key, one in stated.items() for line in _tolerance_problems(key, one, values)]
+    if problems:
+        raise InputError("\n".join(problems))
+    return tuple(_with_tolerance(one, stated.get(one.name), values) for one in PLANT_PARAMETERS)
+
+
+def fixed_parameters(stated: Tolerances) -> frozenset[str]:
+    """The parameters that a user calls fixed."""
+    return frozenset(key for key, one in stated.items() if one == "fixed")
+
+
+def _tolerance_problems(key: str, one: Tolerance | str, values: Mapping[str, float]) -> list[str]:
+    known = {direction.name: direction for direction in PLANT_PARAMETERS}
+    if key not in known:
+        return [f'plant."{key}": no parameter that fits adjust; accepted are {", ".join(known)}']
+    if isinstance(one, Tolerance):
+        if (one.relative is None) == (one.absolute is None):
+            return [f'plant."{key}": either relative or absolute is accepted, or "fixed"']
+        if one.relative is not None and not known[key].relative:
+            return [f'plant."{key}": relative = {one.relative:g}: for this parameter absolute is accepted']
+        if one.absolute is not None and known[key].relative and not values[key] > 0.0:
+            return [f'plant."{key}": absolute = {one.absolute:g}: the model file has {values[key]:g}, which no factor changes']
+    return []
+
+
+def _with_tolerance(one: Direction, stated: Tolerance | str | None, values: Mapping[str, float]) -> Direction:
+    if not isinstance(stated, Tolerance):
+        return one
+    if stated.absolute is not None:
+        prior = log1p(stated.absolute / values[one.name]) if one.relative else stated.absolute
+    else:
+        prior = log1p(stated.relative or 0.0)
+    return replace(one, prior=prior, origin=USER)

@@ -63,7 +63,7 @@ def fit_baseline(campaign: Campaign, executor: Executor, report_progress: Progre
     nominal = collect_predictions(runs, submit_replays(campaign, runs, ParameterPoint(), executor))
     posed = build_problem(campaign, runs, executor, nominal)
     # A model file could not change what runs state.
-    problem = replace(posed, held=frozenset(keys_set_by_runs(campaign)))
+    problem = replace(posed, held=posed.held | keys_set_by_runs(campaign))
     report_progress("fitting the plant parameters")
     hypothesis, coefficients = effects_in_model(campaign)
     start = np.concatenate([np.zeros(len(PLANT_PARAMETERS)), coefficients])

@@ -17,7 +17,6 @@ from ..data.runs import Channel, Run
 from ..data.trip_phases import phases
 from ..estimation.gauss_newton import FitResult
 from ..estimation.weighted_least_squares import LeastSquaresProblem
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, submit_replays
 from ..prediction.replay import Floats, coarsening_factor
 from ..progress import ProgressCallback, no_progress
@@ -113,7 +112,7 @@ def estimate_residual_force(
     except SimulationError:
         return None
     r = problem.residual(fitted.predictions)
-    priors = np.array([one.prior for one in PLANT_PARAMETERS])
+    priors = np.array([one.prior for one in problem.plant])
     plant, coefficients = fitted.jacobian * priors, fitted.coefficients / priors
     times = {run.file: run.time for run in problem.runs}
     fold = cross_validation_folds(problem.whitened_channels, [one.means(times[one.run]) for one in problem.whitened_channels])
