@@ -266,7 +266,7 @@ MUTANTS = [
         ("counterweight_s_column_ignored", "car.mirrored(level)", "car.mirrored(height)", UNITS),
     ),
     *mutants(
-        "units", f"{MEASUREMENTS}/trip.py",
+        "units", f"{MEASUREMENTS}/motion/trip.py",
         ("mirror_without_the_height", "constant(shift)", "constant(0.0)", UNITS),
         ("mirror_that_does_not", "return factor * curve(time, order)", "return curve(time, order)", UNITS),
     ),

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 import comprope_system
 from comprope.errors import InputError
 from comprope_system.measurements import Trip, recover_trip
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 from comprope_system.simulation.measured_run import read_run
 
 Floats = NDArray[np.float64]

@@ -27,7 +27,7 @@ def folder(tmp_path):
 
 def table(folder, file, start, way, **columns):
     """Write the CSV of a trip; `columns` replace or, if None, take out."""
-    from comprope_system.measurements.jerk_limited_profile import jerk_limited
+    from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 
     time = np.arange(0.0, END, SAMPLING)
     whole = {"time": time, "car_position": jerk_limited(start, way, 1.0, PHASES).value(time)}

@@ -14,7 +14,7 @@ from comprope.rope.model_file import dump, with_changes
 from comprope_system.cli import main
 from comprope_system.identification.comparison.nrmse import channel_error, moves
 from comprope_system.identification.data.campaign import load_campaign
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 from comprope_system.report.plot_style import label, legend, panels, plain
 
 from .virtual_elevator import END, MODEL, PHASES, SAMPLING, description

@@ -8,7 +8,7 @@ from comprope_system.identification.comparison.error_metrics import sprague_geer
 from comprope_system.identification.comparison.paired_records import Record
 from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.measurements import Trip
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 
 TIME = np.arange(0.0, 12.0, 0.02)
 TRIP = Trip((jerk_limited(2.0, 6.0, 1.0, np.full(7, 1.0)),), 0.0, "profile")

@@ -10,8 +10,8 @@ from comprope.fmi.model_interface import ModelInterface, Variable
 from comprope_system.cosim import Connection, co_simulate
 from comprope_system.cosim.in_process_participant import InProcessParticipant
 from comprope_system.cosim.prescribed_motion import PrescribedMotion
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
-from comprope_system.measurements.trip import Trip
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.trip import Trip
 
 
 class Clock:

@@ -12,7 +12,7 @@ from comprope.errors import InputError
 from comprope.rope.model_file import dump
 from comprope_system.cli import main
 from comprope_system.measurements.campaign_file import read_campaign_file
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 
 from .virtual_elevator import END, MODEL, PHASES, SAMPLING
 

@@ -9,7 +9,7 @@ from comprope_system.identification.data.noise_model import NoiseModel, bin_cova
 from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.identification.data.whitening import whiten_channel
 from comprope_system.measurements import Trip
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 
 SAMPLING, SIZE = 0.01, 2e-4  # s, m
 

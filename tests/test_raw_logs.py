@@ -13,7 +13,7 @@ from comprope_system.cli import main
 from comprope_system.measurements.campaign_file import CampaignFile, Channel, RunSpec, read_campaign_file
 from comprope_system.measurements.files import RawTable, read_raw_table
 from comprope_system.measurements.files.file_format import FileFormat
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 from comprope_system.measurements.run_table import read_run_table
 from comprope_system.measurements.units import is_unit, split_unit, unit_named
 

@@ -7,7 +7,7 @@ import pytest
 from comprope.errors import InputError
 from comprope_system import cli
 from comprope_system.measurements import recover_trip
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 from comprope_system.simulation.measured_run import MotionWishes, read_run
 
 HEIGHT = 50.0

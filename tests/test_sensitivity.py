@@ -18,7 +18,7 @@ from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.identification.prediction.replay import replay
 from comprope_system.identification.prediction.replay_sensitivities import replay_with_sensitivities
 from comprope_system.measurements import Trip
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 
 from .rope_tower import TOWER, way
 from .virtual_elevator import LASER

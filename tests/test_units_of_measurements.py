@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from comprope_system.identification.data.runs import Channel
-from comprope_system.measurements.anchoring import Landings
 from comprope_system.measurements.end_motions import EndSignals, recover_ends
+from comprope_system.measurements.motion.anchoring import Landings
 from comprope_system.measurements.motion_column import MotionSignal
 from comprope_system.measurements.run_table import UNITS
 

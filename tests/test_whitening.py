@@ -8,7 +8,7 @@ from comprope_system.identification.data.outliers import outliers
 from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.identification.data.whitening import stack, whiten_channel
 from comprope_system.measurements import Trip
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 
 SAMPLING, REST, NOISE = 0.02, 1.0, 1e-3  # s, s, m
 TIME = np.arange(0.0, 6.0, SAMPLING)

@@ -14,7 +14,7 @@ from comprope.rope.model_file import dump, validated, with_changes
 from comprope_system.identification.data.runs import Channel, Run
 from comprope_system.identification.prediction.replay import replay
 from comprope_system.measurements import Trip
-from comprope_system.measurements.jerk_limited_profile import jerk_limited
+from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 
 MODEL = validated(
     {

@@ -16,10 +16,10 @@ from ..measurements.columns.readings import written_unit
 from ..measurements.columns.signal_faults import CHANNEL_RULES
 from ..measurements.files.file_format import FileFormat
 from ..measurements.files.raw_table import RawColumn, printable
+from ..measurements.motion.recover import recover_trip
+from ..measurements.motion.trip import Trip
 from ..measurements.motion_column import MotionSignal, read_motion
-from ..measurements.recover import recover_trip
 from ..measurements.run_files import RunFiles, Samples
-from ..measurements.trip import Trip
 from ..measurements.units import is_unit, unit_named
 from .column_roles import Evidence, Role, role_of
 

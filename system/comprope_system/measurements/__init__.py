@@ -1,6 +1,6 @@
-"""Trips of the car: the smooth motion behind a noisy position signal."""
+"""Measured runs: files of any logger, columns and units, and the motion of car and counterweight."""
 
-from .recover import recover_trip
-from .trip import Trip
+from .motion.recover import recover_trip
+from .motion.trip import Trip
 
 __all__ = ["Trip", "recover_trip"]

@@ -11,7 +11,7 @@ from comprope.rope.model_file import read_toml
 from comprope.validation_messages import validation_problems
 
 from .files.file_format import FileFormat
-from .recover import Motion
+from .motion.recover import Motion
 from .units import UNITS
 
 Quantity = Literal[

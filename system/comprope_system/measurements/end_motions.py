@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 
 from comprope.errors import InputError
 
-from .anchoring import Landings, Record, anchored
-from .integrated_motion import integrate
-from .lead_in import run_up_time, with_run_up
-from .local_misfit import excess
+from .motion.anchoring import Landings, Record, anchored
+from .motion.integrated_motion import integrate
+from .motion.lead_in import run_up_time, with_run_up
+from .motion.local_misfit import excess
+from .motion.position_signal import Signal, prepare, resolution, spikes
+from .motion.recover import Motion, recover_signal, recover_trip
+from .motion.trip import Trip
 from .motion_column import MotionSignal
-from .position_signal import Signal, prepare, resolution, spikes
-from .recover import Motion, recover_signal, recover_trip
-from .trip import Trip
 
 Floats = NDArray[np.float64]
 

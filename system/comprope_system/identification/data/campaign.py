@@ -17,9 +17,9 @@ from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
 
-from ...measurements.anchoring import Landings
 from ...measurements.campaign_file import CampaignFile, Channel, RunSpec, Tolerance, read_campaign_file
 from ...measurements.end_motions import EndMotions, EndSignals, recover_ends
+from ...measurements.motion.anchoring import Landings
 from ...measurements.run_table import RunTable, read_run_table
 from ...measurements.units import UNITS
 from .car_direction import mirrored_car

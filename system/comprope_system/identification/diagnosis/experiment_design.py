@@ -15,7 +15,7 @@ from comprope.errors import CompropeError
 from comprope.rope.simulator.rope import values_of
 
 from ...measurements import Trip
-from ...measurements.jerk_limited_profile import jerk_limited
+from ...measurements.motion.jerk_limited_profile import jerk_limited
 from ..data.campaign import Campaign
 from ..data.runs import Run
 from ..data.whitening import whiten_channel

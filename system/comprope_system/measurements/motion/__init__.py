@@ -1,0 +1,1 @@
+"""The motion of car and counterweight, recovered from positions, speeds or accelerations."""
