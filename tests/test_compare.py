@@ -106,7 +106,8 @@ def test_the_command_prints_and_writes(capsys, folder, tmp_path):
     assert (done.value.code, errors) == (0, "")
     assert "NRMSE" in told and "up_short.csv (validate)" in told and f"written {page}" in told
     assert json.loads(out.read_text())["runs"][0]["file"] == "up.csv"
-    assert "<img" in page.read_text() and "up_short.csv" in page.read_text()
+    assert '<figure class="curves"' in page.read_text() and "up_short.csv" in page.read_text()
+    assert "fails most at" in told and json.loads(out.read_text())["largest_error"]["file"] in page.read_text()
 
 
 @pytest.mark.parametrize("command", ["compare", "diagnose", "add", "improve"])

@@ -1,4 +1,4 @@
-"""HTML pages: sections of paragraphs, tables, figures and animations in one file without external resources."""
+"""HTML pages: sections of paragraphs, tables, curves, figures and animations in one file without external resources."""
 
 import base64
 import io
@@ -15,7 +15,11 @@ from matplotlib.figure import Figure
 
 from comprope.atomic_files import atomic_write
 
+from .curves import Curves
+from .heat_map import HeatMap
+
 DPI = 130
+UPLOT = ("uplot/uPlot.min.css", "curves.css", "uplot/notice.js", "uplot/uPlot.iife.min.js", "curves.js")
 NUMBER = re.compile(r"[-−+]?[\d.][\d.e+/-]*( ± [\d.e+-]+)?( [^ \d]+)?")  # or two, with a standard error, with a unit
 MARKS = {"yes": "yes", "no": "no", "partly": "partly", "pass": "yes", "fail": "no"}
 
@@ -68,28 +72,40 @@ class Animation:
     caption: str = ""
 
 
-Block = str | Table | Picture | Animation
+Block = str | Table | HeatMap | Picture | Curves | Animation
 
 
 @dataclass(frozen=True)
 class Section:
-    """One section of a page: a name for links, a title, its content, and a quotation."""
+    """One section of a page: a name for links, a title, its content, a quotation; `folded` shows the title until it is asked."""
 
     name: str
     title: str
     blocks: Sequence[Block]
     quote: str = ""
+    folded: bool = False
 
 
 def render(template: str, title: str, lead: str = "", **values: Any) -> str:
-    """HTML text of a page from a template of this folder that extends `base.html`."""
+    """HTML text of a page from a template of this folder that extends `base.html`, with its styles and scripts."""
     environment = Environment(
         loader=PackageLoader(__name__.rpartition(".")[0], ""),
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    style, player = (Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("style.css", "player.js"))
-    page = {"title": title, "lead": lead, "style": style, "player": player, "version": _version()}
+    blocks = [block for section in values.get("sections", ()) for block in section.blocks]
+    plotted = UPLOT if any(isinstance(block, Curves) for block in blocks) else ()
+    played = ("player.js",) if any(isinstance(block, Animation) for block in blocks) else ()
+    page = {
+        "title": title, "lead": lead, "version": _version(),
+        "styles": _texts("style.css", *(name for name in plotted if name.endswith(".css"))),
+        "scripts": _texts(*(name for name in plotted if name.endswith(".js")), *played),
+    }  # fmt: skip
     return environment.get_template(template).render(page | values)
+
+
+def _texts(*names: str) -> list[str]:
+    """Files of this folder."""
+    return [(Path(__file__).parent / name).read_text(encoding="utf-8") for name in names]
 
 
 def save_page(path: str | Path, title: str, lead: str, sections: Sequence[Section]) -> None:

@@ -18,7 +18,7 @@ def percent(share: float | None) -> str:
 
 def number(value: float | None) -> str:
     """A number of three digits; a dash where there is none."""
-    return "–" if value is None or not np.isfinite(value) else f"{value:.3g}"
+    return "–" if value is None or not np.isfinite(value) else f"{float(f'{value:.3g}'):g}"
 
 
 def wrapped(*sentences: str) -> list[str]:

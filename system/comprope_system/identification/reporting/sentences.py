@@ -3,12 +3,31 @@
 import numpy as np
 
 from ..comparison.compare import Comparison
+from ..comparison.largest_error import largest_error
 from ..diagnosis.diagnose import Diagnosis
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, full_name, implausible_parameters, ranking, reduced_chi_square
 from ..model_updating.add_effect import UpdatedModel
 from ..model_updating.stepwise_selection import StepwiseSelection
 from ..settings import COMPARISON, VERDICT
 from .formatting import number, percent, probability
+
+WHEN = {
+    "rest": "at rest", "acceleration": "during acceleration", "cruise": "during cruise", "deceleration": "during deceleration",
+    "after_stop": "after the stop",
+}  # fmt: skip
+
+
+def largest_error_sentence(one: Comparison) -> str:
+    """Where the model fails most: channel, run, phase of the trip, and the size of the error."""
+    worst = largest_error(one)
+    if worst is None:
+        return "The model fails nowhere beyond the measurement noise."
+    scale, unit = worst.channel.scale, worst.channel.unit
+    return (
+        f"It fails most at {worst.channel.column} in {worst.file} ({worst.role}) {WHEN[worst.phase]}: RMS error "
+        f"{number(worst.rms / scale)} {unit} (NRMSE {percent(worst.share)}), largest residual "
+        f"{number(worst.peak / scale)} {unit} at {worst.peak_time:.3g} s."
+    )
 
 
 def comparison_sentences(one: Comparison) -> list[str]:

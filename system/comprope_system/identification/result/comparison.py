@@ -6,8 +6,10 @@ from typing import Any
 
 import pandas as pd
 
+from ...report.json_output import plain
 from ...report.result import Result
 from ..comparison.compare import Comparison, RunComparison
+from ..comparison.largest_error import LargestError, largest_error
 from ..data.campaign import Campaign
 from ..reporting import sentences, tables
 from ..reporting.formatting import listed, paragraphs, text_table, wrapped
@@ -50,21 +52,29 @@ class ComparisonResult(Result):
         """Mean square of the residual over the variance of the noise, mean over channels and runs."""
         return self.comparison.reduced_chi_square
 
+    @property
+    def largest_error(self) -> LargestError | None:
+        """Run, channel and phase of the trip with the largest error; None where noise explains all."""
+        return largest_error(self.comparison)
+
     def headline(self) -> str:
         """NRMSE on fit and validation runs."""
         return sentences.comparison_sentences(self.comparison)[0]
 
     def summary(self) -> str:
-        """NRMSE and reduced chi-square, the error of each run and channel by phase of the trip, and remarks on the data."""
+        """Where the model fails most, NRMSE, reduced chi-square, errors by run, channel and phase, remarks on the data."""
         return paragraphs(
+            wrapped(sentences.largest_error_sentence(self.comparison)),
             wrapped(*sentences.comparison_sentences(self.comparison)),
             text_table(tables.error_table(self.comparison)),
             listed("Data quality:", self.remarks),
         )
 
     def to_json(self) -> dict[str, Any]:
-        """Errors of all runs and channels, lengths and forces in the unit of the channel."""
-        return self.comparison.to_json() | {"remarks": list(self.remarks)}
+        """Errors of all runs and channels in the unit of the channel; `largest_error` is null if noise explains all."""
+        worst = self.largest_error
+        found = {"remarks": list(self.remarks), "largest_error": plain(worst.to_json()) if worst else None}
+        return self.comparison.to_json() | found
 
     def to_dataframe(self) -> pd.DataFrame:
         """One row for each run and channel: NRMSE, RMS error in the unit of the channel, reduced chi-square, NRMSE by phase."""
@@ -79,7 +89,7 @@ class ComparisonResult(Result):
         return pd.DataFrame(rows)
 
     def save_html(self, path: str | Path) -> None:
-        """Write a page with tables and pictures of every run, completely or not at all."""
+        """Write a page with a table of errors and the curves of every run, completely or not at all."""
         from ..reporting.comparison_page import save_comparison
 
         save_comparison(Path(path), self.comparison, self.remarks)

@@ -22,6 +22,10 @@ class Comparison:
     min_turns: float = setting(1.5, "1", "turns of the sheave that an order spectrum needs", JUDGEMENT)
     min_samples: int = setting(20, "1", "samples that any measure needs", JUDGEMENT)
     adequate: float = setting(1.2, "1", "reduced chi-square below which noise explains the residual", JUDGEMENT)
+    chance: float = setting(
+        4.0, "standard deviations", "of the reduced chi-square of one phase of a trip above that limit, which noise may reach",
+        "1 in 30 000 for each phase of each channel",
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
