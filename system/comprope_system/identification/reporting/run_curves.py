@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ...report.curves import BEFORE, MEASURED, MODEL, Curve, Curves, Group, Panel, Span
+from ...report.curves import BEFORE, EQUAL_STYLES, MEASURED, MODEL, Curve, Curves, Group, Panel, Span
 from ..comparison.compare import ChannelComparison, Comparison, RunComparison
 from ..comparison.error_metrics import ORDERS
 from ..data.runs import Run
@@ -17,7 +17,6 @@ Floats = NDArray[np.float64]
 BAND = 2.0  # standard deviations: half width of the band of the noise
 STYLES = {1: (MODEL,), 2: (BEFORE, MODEL)}  # of models, by their number
 TINTED = ("acceleration", "deceleration")
-COLOURS = 8  # of equal curves, after which they repeat
 
 
 def run_curves(name: str, stages: Mapping[str, Comparison], first: str, caption: str = "") -> Curves:
@@ -89,7 +88,7 @@ def order_curves(comparison: Comparison) -> Curves:
     panels = []
     for column, channel in comparison.campaign.channels.items():
         found = [(run.file, next(c for c in run.channels if c.column == column)) for run in comparison.runs]
-        curves = [Curve(file, str(k % COLOURS), one.orders / channel.scale) for k, (file, one) in enumerate(found)]
+        curves = [Curve(file, str(k % EQUAL_STYLES), one.orders / channel.scale) for k, (file, one) in enumerate(found)]
         if any(np.isfinite(one.value).any() for one in curves):
             panels.append(Panel(column, channel.unit, ORDERS, curves))
     title = "Amplitude of the residual over periods per revolution of the sheave"
