@@ -42,6 +42,7 @@ FORCES = "test_time_step.py::test_forces_are_those_of_the_equations"
 STEP = "test_time_step.py::test_a_step_follows_newmark_s_rule_and_balances_as_hilber_hughes_and_taylor_have_it"
 STORED = "test_time_step.py::test_stored_energies_and_losses_are_those_of_the_motion"
 WORK = "test_time_step.py::test_the_ends_do_the_work_of_their_holders_and_the_energy_balances"
+SIDEWAYS = "test_time_step.py::test_ends_that_move_sideways_do_the_work_of_their_lateral_forces"
 STEPS = "test_time_step.py::test_a_communication_step_has_as_many_time_steps_as_its_length_and_speed_ask_for"
 BY_POSITION, BY_VELOCITY = "test_rope_kernels.py::test_tangent_by_position", "test_rope_kernels.py::test_tangent_by_velocity"
 ELIMINATION = "test_rope_kernels.py::test_elimination_from_both_ends_equals_a_dense_solve"
@@ -113,7 +114,7 @@ MUTANTS = [
         ("bending_loss_per_length", "p[CB] * l * bending", "p[CB] / l * bending", STORED),
         ("drag_loss_one_way", "drag += v[i] * v[i] + v[m + i] * v[m + i]", "drag += v[i] * v[i]", STORED),
         ("counterweight_s_holder_of_the_car", "half * a[n - 1] - f[n - 1]", "half * a[n - 1] - f[0]", WORK),
-        ("lateral_work_dropped", "(q[m + n - 1] - q0[m + n - 1])", "0.0", WORK),
+        ("lateral_work_dropped", "(q[m + n - 1] - q0[m + n - 1])", "0.0", SIDEWAYS),
         ("work_of_the_old_force", "0.5 * (P0[2] + P[2])", "P0[2]", WORK),
         ("losses_of_the_old_power", "0.5 * h * (P0[END_FORCES + k] + P[END_FORCES + k])", "h * P0[END_FORCES + k]", STORED),
     ),
@@ -152,7 +153,7 @@ MUTANTS = [
         ("sway_s_velocity_dropped", " + share * rate * c", "",
          "test_rope_kernels.py::test_effect_moves_the_ends_with_consistent_velocity_and_acceleration"),
         ("power_of_the_drag", "power += push * (nx * v[i] + ny * v[m + i])", "power += push * u",
-         "test_rope_kernels.py::test_effect_states_the_power_of_its_own_forces"),
+         "test_rope_kernels.py::test_drag_in_a_wind_states_its_power_on_the_rope_and_not_that_by_the_air"),
     ),
     *mutants(
         "linalg", LINALG,
@@ -295,8 +296,10 @@ MUTANTS = [
         ("spread_of_a_difference", " / 2.0**0.5 if", " if", NOISY),
         ("coarse_digits_contradict", "NOISE.quantisation_ratio * stated", "0.0 * stated", WHITE),
         ("stated_noise_in_the_column_s_unit", "(channel.noise or 0.0) * channel.scale", "(channel.noise or 0.0)", NOISY),
-        ("short_rest_contradicts", "if sum(map(len, records)) < NOISE.min_rest_samples:", "if not records:", NOISY),
-        ("a_swing_after_the_stop_as_rest", "float(np.std(half)) <= still", "True", NOISY),
+        ("short_rest_contradicts", "if sum(map(len, records)) < NOISE.min_rest_samples:", "if not records:",
+         f"{NOISY}::test_without_a_rest_noise_is_white_and_as_stated_or_from_the_steps_of_the_run"),
+        ("a_swing_after_the_stop_as_rest", "float(np.std(half)) <= still", "True",
+         f"{NOISY}::test_a_swing_after_the_stop_is_no_rest"),
         ("vibration_overlooked", "return factor if factor", "return 1.0 if factor", NOISY),
         ("no_upper_limit", "return min(upper,", "return min(model.deviation,", NOISY),
     ),
@@ -355,7 +358,8 @@ MUTANTS = [
          "servo.acceleration_feedforward * drive.plant.car_mass",
          f"{DRIVEN}::test_car_follows_within_millimetres"),
         ("tension_of_running_rope", "car_strain_rate - _row(V_S, weight / 2.0)",
-         "car_strain_rate + _row(V_S, weight / 2.0)", SERVO),
+         "car_strain_rate + _row(V_S, weight / 2.0)",
+         f"{SERVO}::test_a_steady_trip_shifts_the_weight_of_the_rope_that_runs_over"),
         ("damping_of_one_side", "n_w = _row(T_W, 1.0) + drive.plant.rope_damping * counterweight_strain_rate",
          "n_w = _row(T_W, 1.0)", SERVO),
         ("ropes_pull_the_other_way", "+ car_pull - counterweight_pull", "- car_pull + counterweight_pull", SERVO),

@@ -49,6 +49,19 @@ def test_the_model_rests_wherever_the_holding_force_holds_it(position: float) ->
     assert hoist.A @ x + hoist.B @ [force, 0.0, 0.0] == pytest.approx(np.zeros(8), abs=1e-12)
 
 
+@pytest.mark.parametrize("position", [0.0, 10.0, 25.0])
+def test_a_steady_trip_shifts_the_weight_of_the_rope_that_runs_over(position: float) -> None:
+    """4.8 kg/s of hoist rope change sides at 2 m/s: the car's mean tension loses half of their weight, the other's gains it."""
+    speed, hoist = 2.0, state_space(DRIVE, position)
+    x = np.zeros(8)
+    x[[V_S, V_C, V_W]] = speed, speed, -speed
+    expected = np.zeros(8)
+    expected[[S, X_C, X_W]] = speed, speed, -speed
+    expected[[T_C, T_W]] = -0.5 * 4.8 * 9.81, 0.5 * 4.8 * 9.81  # N/s
+    # Strain rates of 4e6 N/s cancel on each side, which leaves up to 1e-9 N/s of rounding.
+    assert hoist.A @ x == pytest.approx(expected, rel=1e-12, abs=1e-8)
+
+
 def test_holding_force_weighs_all_that_hangs() -> None:
     ropes = 2.4 * 9.81 * (54.0 - 4.0)
     assert holding_force(DRIVE, 0.0, 1000.0, 700.0) == pytest.approx((2000.0 - 2300.0) * 9.81 + ropes + 300.0)

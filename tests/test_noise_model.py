@@ -157,8 +157,9 @@ def test_a_swing_of_the_rope_is_no_noise() -> None:
 
 
 def test_a_swing_after_the_stop_is_no_rest() -> None:
+    """The later half of the record after the stop, two seconds, is longer than the rest before the trip: it would count."""
     random = np.random.default_rng(12)
-    runs = runs_of(lambda count: SIZE * random.normal(size=count))
+    runs = runs_of(lambda count: SIZE * random.normal(size=count), after=4.0)
     for one in runs:
         late = one.time > one.trip.rest_after
         one.values["laser"][late] += 0.01 * np.sin(4.0 * one.time[late])
@@ -175,10 +176,15 @@ def test_outliers_and_heavy_tails_do_not_hide_what_a_channel_shows() -> None:
 
 def test_without_a_rest_noise_is_white_and_as_stated_or_from_the_steps_of_the_run() -> None:
     random = np.random.default_rng(14)
-    runs = runs_of(lambda count: SIZE * random.normal(size=count), count=1, rest=0.2)
-    found = channel_noise(channel(0.3), runs)
-    assert (found.deviation, found.motion_factor, len(found.correlation)) == (0.3e-3, 1.0, 1)
-    assert channel_noise(channel(), runs).deviation == pytest.approx(SIZE, rel=0.5)
+    # Twenty samples before the trip and twenty after it, of which the later ten are too few for a record.
+    runs = runs_of(lambda count: SIZE * random.normal(size=count), count=1, rest=0.2, after=0.2)
+    for stated in (0.3, 0.03):  # a longer rest would contradict the second
+        found = channel_noise(channel(stated), runs)
+        assert (found.deviation, found.motion_factor, len(found.correlation)) == (pytest.approx(1e-3 * stated, rel=1e-15), 1.0, 1)
+        assert np.isnan(found.at_rest)
+    # The steps of the whole run, 840 of them, give the noise to some 5 %; a swing of the rope would add its own steps.
+    still = runs_of(lambda count: SIZE * random.normal(size=count), count=1, rest=0.2, after=0.2, swing=0.0)
+    assert channel_noise(channel(), still).deviation == pytest.approx(SIZE, rel=0.2)
 
 
 def test_the_spread_of_steps_is_the_deviation_of_white_noise() -> None:

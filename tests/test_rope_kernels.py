@@ -334,6 +334,19 @@ def test_effect_states_the_power_of_its_own_forces(effect: str) -> None:
         assert acting.work.power[k] == pytest.approx(work, rel=1e-9, abs=1e-7)
 
 
+def test_drag_in_a_wind_states_its_power_on_the_rope_and_not_that_by_the_air() -> None:
+    """Force times the velocity of the rope itself, not of the rope through the air that blows outward."""
+    k = list(REGISTRY).index("air_drag")
+    for seed in range(3):
+        acting, absent = random_state(nominal("shaft_airflow"), seed), random_state({}, seed)
+        acting.state.v[0] = -2.0  # the car rises, which makes a wind of 0.6 m/s
+        absent.state.from_bytes(acting.state.to_bytes())
+        work = (forces(acting) - forces(absent)) @ acting.state.v
+        # Forces of 1e5 N at up to 2 m/s leave 1e-9 W of rounding.
+        assert abs(work) > 1e-4  # W
+        assert acting.work.power[k] == pytest.approx(work, rel=1e-9, abs=1e-7)
+
+
 @pytest.mark.parametrize("effect", [name for name in EVERY_EFFECT if "ends" in REGISTRY[name].hooks])
 def test_effect_moves_the_ends_with_consistent_velocity_and_acceleration(effect: str) -> None:
     """Central differences along a path on which the ends rise and move aside."""
