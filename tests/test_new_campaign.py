@@ -87,17 +87,31 @@ def test_a_column_that_was_guessed_is_asked_for_and_others_are_not(tmp_path, fil
     table["ch1"] *= 1e-3
     table.to_csv(files[0], index=False)
     asked = []
+    answers = iter(["lateral_displacement car_low mm", "70", "5.1"])
 
     def ask(question: str, default: str) -> str:
-        asked.append((question.split(":")[0], default))
-        return {"ch7": "lateral_displacement car_low mm", "up.csv": "70"}[question.split(":")[0]]
+        asked.append((question.splitlines()[-1].split(":")[0], default))
+        return next(answers)
 
     result = comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL, ask=ask)
-    assert asked == [("ch7", "-"), ("up.csv", "120")]
+    assert asked == [("ch7", "-"), ("up.csv", "120"), ("up.csv", f"{MODEL.sheave.inertia * 70.0 / 120.0:g}")]
     written = read_campaign_file(tmp_path / "campaign" / "campaign.toml")
-    assert written.car.column == "ch1" and written.runs[0].set == {"sheave.mass": 70.0}
+    assert written.car.column == "ch1" and written.runs[0].set == {"sheave.mass": 70.0, "sheave.inertia": 5.1}
     assert any(one.column == "ch7" and one.sensor == "car_low" for one in written.channels)
     assert result.check.problems == ()
+
+
+def test_an_answer_that_is_not_accepted_is_asked_for_again(tmp_path, files):
+    answers, asked = iter(["heavy", "-3", "120"]), []
+
+    def ask(question: str, default: str) -> str:
+        asked.append(question)
+        return next(answers)
+
+    comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL, ask=ask)
+    assert len(asked) == 3
+    assert "sheave.mass = heavy: a number from 0.1 to 20000 [kg] is accepted" in asked[1].splitlines()[0]
+    assert "sheave.mass = -3" in asked[2].splitlines()[0] and asked[2].splitlines()[1:] == asked[0].splitlines()
 
 
 def test_an_answer_that_is_none_and_files_that_are_none_are_refused(tmp_path, files):
@@ -109,6 +123,6 @@ def test_an_answer_that_is_none_and_files_that_are_none_are_refused(tmp_path, fi
     files[0].write_text("a,b\n1,2\n2,3\n")
     with pytest.raises(InputError, match="which column is the position of the car"):
         comprope_system.new(tmp_path / "b", files[:1], model=MODEL)
-    with pytest.raises(InputError, match="a number of kilograms is accepted"):
+    with pytest.raises(InputError, match=r"sheave\.mass = heavy: a number from 0\.1"):
         comprope_system.new(tmp_path / "c", files[1:], model=MODEL, ask=lambda question, default: "heavy")
     assert not (tmp_path / "c" / "campaign.toml").exists()

@@ -1,10 +1,8 @@
 """The public function `comprope_system.new`."""
 
 import shutil
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from pathlib import Path
-from typing import get_args
 
 from comprope.atomic_files import atomic_write
 from comprope.errors import InputError
@@ -12,20 +10,17 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import dump, load
 
 from ..identification.workflow import check
-from ..measurements.campaign_file import MotionColumn, Quantity
+from ..measurements.campaign_file import MotionColumn
 from ..measurements.files.raw_table import printable
 from ..measurements.files.reader import require_regular_file
-from ..measurements.units import UNITS
 from ..presets import model_path
 from .campaign_text import campaign_text
-from .column_roles import GUESS, SURE, Role
+from .questions import Ask, asked_changes, asked_role
 from .result import NewCampaign
 from .survey import SurveyedRun, noise, roles, survey
 
-Ask = Callable[[str, str], str]
 DEFAULT_MODEL = "tower50"
 HELD_OUT = 2  # runs from which on one is held out
-LEFT_OUT = "-"
 SHORT_REST = 1.0  # s at rest before a trip that references need
 
 
@@ -39,8 +34,8 @@ def new(
     """Describe raw logger files, one for each run: write campaign.toml, model and files into a folder; nothing is replaced.
 
     `model` is a model file, a preset's name or a `RopeModel`, by default the only model in the folder or the preset tower50.
-    `ask(question, default)` returns the answer to what the files do not say; without it the default is taken. Raises
-    `InputError` if campaign.toml exists, or a file holds no motion of a car.
+    `ask(question, default)` returns the answer to what the files do not say; an answer that is not accepted is asked for again.
+    Without `ask` the defaults are taken. Raises `InputError` if campaign.toml exists, or a file holds no motion of a car.
     """
     folder = Path(campaign)
     path = folder / "campaign.toml"
@@ -50,7 +45,7 @@ def new(
     surveyed = survey(folder, [_copied(Path(one), folder) for one in files], loaded, MotionColumn())
     found = roles(surveyed, loaded)
     if ask:
-        found = {column: _asked(column, role, loaded, ask) for column, role in found.items()}
+        found = {column: asked_role(column, role, loaded, ask) for column, role in found.items()}
     used = {column: role for column, role in found.items() if role.quantity}
     channels = [(column, role, noise(surveyed, column)) for column, role in used.items()]
     if not channels:
@@ -58,7 +53,7 @@ def new(
         raise InputError(f"{folder}: no column is a channel that is known; describe them in campaign.toml: {columns}")
     held_out = _held_out(surveyed)
     by_file = {run.file: "validate" if run.file == held_out else "fit" for run in surveyed}
-    runs = [(run.file, by_file[run.file], _changes(run, loaded, ask)) for run in surveyed]
+    runs = [(run.file, by_file[run.file], asked_changes(run.file, loaded, ask) if ask else {}) for run in surveyed]
     with atomic_write(path) as temporary:
         temporary.write_text(campaign_text(folder.resolve().name, name, _tables(surveyed), channels, runs), "utf-8")
     remarks += [f"{run.file}: {run.rest:.2g} s at rest before the trip; references at rest need {SHORT_REST:g} s"
@@ -124,41 +119,3 @@ def _tables(runs: Sequence[SurveyedRun]) -> dict[str, dict[str, object]]:
 def _held_out(runs: Sequence[SurveyedRun]) -> str | None:
     """The run that is kept for validation: the one with the shortest travel; None of a single run."""
     return min(runs, key=lambda run: run.travel).file if len(runs) >= HELD_OUT else None
-
-
-def _asked(column: str, role: Role, model: RopeModel, ask: Ask) -> Role:
-    """The role of a column, after a question if it was guessed."""
-    if role.certainty != GUESS:
-        return role
-    default = role.shown if role.quantity else LEFT_OUT
-    quantities, sensors = ", ".join(get_args(Quantity)), ", ".join(one.name for one in model.sensors)
-    question = (
-        f"{printable(column)}: what is it? ({printable(role.why)}) QUANTITY UNIT, or lateral_displacement SENSOR UNIT, or "
-        f"{LEFT_OUT} to leave it out; quantities: {quantities}; sensors: {sensors}"
-    )
-    answer = ask(question, default).strip()
-    if answer == default:
-        return role
-    if answer == LEFT_OUT:
-        return Role(None, certainty=SURE, why="as answered")
-    words = answer.split()
-    sensor = words.pop(1) if len(words) == 3 else None
-    given = f"{printable(column)}: {printable(answer)}"
-    if len(words) != 2 or words[0] not in UNITS or words[1] not in UNITS[words[0]]:
-        raise InputError(f"{given}: a quantity with one of its units is accepted, such as sheave_displacement mm")
-    if words[0] == "lateral_displacement" and sensor not in {one.name for one in model.sensors}:
-        raise InputError(f"{given}: a sensor of the model is accepted: {sensors}")
-    return replace(role, quantity=words[0], unit=words[1], sensor=sensor, certainty=SURE, why="as answered")
-
-
-def _changes(run: SurveyedRun, model: RopeModel, ask: Ask | None) -> Mapping[str, object]:
-    """What differs from the model in a run: the mass of the sheave, which no file states."""
-    if ask is None:
-        return {}
-    question = f"{printable(run.file)}: mass of the sheave in this run, one rope's share [kg]"
-    answer = ask(question, f"{model.sheave.mass:g}").strip()
-    try:
-        mass = float(answer)
-    except ValueError:
-        raise InputError(f"{printable(run.file)}: sheave.mass = {printable(answer)}: a number of kilograms is accepted") from None
-    return {} if mass == model.sheave.mass else {"sheave.mass": mass}

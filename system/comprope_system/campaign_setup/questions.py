@@ -1,0 +1,85 @@
+"""Questions about what raw files do not state: columns that were guessed, and the sheave of each run."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TypeVar, get_args
+
+from comprope.errors import InputError
+from comprope.quantities import quantities
+from comprope.rope.effects import RopeModel
+from comprope.rope.parameters import Sheave
+
+from ..measurements.campaign_file import Quantity
+from ..measurements.files.raw_table import printable
+from ..measurements.units import UNITS
+from .column_roles import GUESS, SURE, Role
+
+Ask = Callable[[str, str], str]
+Answer = TypeVar("Answer")
+LEFT_OUT = "-"
+ATTEMPTS = 3  # answers to a question until the command gives up
+
+
+def asked_role(column: str, role: Role, model: RopeModel, ask: Ask) -> Role:
+    """The role of a column, after a question if it was guessed."""
+    if role.certainty != GUESS:
+        return role
+    default = role.shown if role.quantity else LEFT_OUT
+    quantities, sensors = ", ".join(get_args(Quantity)), ", ".join(one.name for one in model.sensors)
+    question = (
+        f"{printable(column)}: what is it? ({printable(role.why)}) QUANTITY UNIT, or lateral_displacement SENSOR UNIT, or "
+        f"{LEFT_OUT} to leave it out; quantities: {quantities}; sensors: {sensors}"
+    )
+    return _answered(question, default, lambda answer: role if answer == default else _role(column, answer, role, model), ask)
+
+
+def _role(column: str, answer: str, role: Role, model: RopeModel) -> Role:
+    """The role that an answer states; raises `InputError` for one that cannot be."""
+    if answer == LEFT_OUT:
+        return Role(None, certainty=SURE, why="as answered")
+    words = answer.split()
+    sensor = words.pop(1) if len(words) == 3 else None
+    given, sensors = f"{printable(column)}: {printable(answer)}", [one.name for one in model.sensors]
+    if len(words) != 2 or words[0] not in UNITS or words[1] not in UNITS[words[0]]:
+        raise InputError(f"{given}: a quantity with one of its units is accepted, such as sheave_displacement mm")
+    if words[0] == "lateral_displacement" and sensor not in sensors:
+        raise InputError(f"{given}: a sensor of the model is accepted: {', '.join(sensors)}")
+    return replace(role, quantity=words[0], unit=words[1], sensor=sensor, certainty=SURE, why="as answered")
+
+
+def asked_changes(file: str, model: RopeModel, ask: Ask) -> Mapping[str, object]:
+    """What differs from the model in a run: mass and, of another mass, inertia of the sheave, which no file states."""
+    mass = _number(file, "sheave.mass", "mass of the sheave in this run", "kg", model.sheave.mass, ask)
+    if mass == model.sheave.mass:
+        return {}
+    in_proportion = model.sheave.inertia * mass / model.sheave.mass
+    inertia = _number(file, "sheave.inertia", "moment of inertia of this sheave", "kg m2", in_proportion, ask)
+    return {"sheave.mass": mass, "sheave.inertia": inertia}
+
+
+def _number(file: str, key: str, what: str, unit: str, default: float, ask: Ask) -> float:
+    """A parameter of the sheave, within the range that model files accept."""
+    limits = {one.name: one for one in quantities(Sheave)}[key.partition(".")[2]]
+
+    def read(answer: str) -> float:
+        try:
+            value = float(answer)
+        except ValueError:
+            value = float("nan")
+        if not limits.minimum <= value <= limits.maximum:
+            accepted = f"a number from {limits.minimum:g} to {limits.maximum:g} [{unit}] is accepted"
+            raise InputError(f"{printable(file)}: {key} = {printable(answer)}: {accepted}")
+        return value
+
+    return _answered(f"{printable(file)}: {what}, one rope's share [{unit}]", f"{default:g}", read, ask)
+
+
+def _answered(question: str, default: str, read: Callable[[str], Answer], ask: Ask) -> Answer:
+    """What `read` makes of the answer; one that it refuses is asked for again, at most `ATTEMPTS` times in all."""
+    for _ in range(ATTEMPTS - 1):
+        answer = ask(question, default).strip()
+        try:
+            return read(answer)
+        except InputError as error:
+            question = f"{error}\n{question.splitlines()[-1]}"
+    return read(ask(question, default).strip())
