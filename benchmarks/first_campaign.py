@@ -32,20 +32,20 @@ FMU_RUN = """
 import sys
 import fmpy
 found = fmpy.simulate_fmu(sys.argv[1], stop_time=5.0, output_interval=0.01)
-print(f"{len(found)} rows to {found['time'][-1]:g} s, largest sheave_force {max(abs(found['sheave_force'])):.4g} N")
+print(f"{len(found)} rows, to {found['time'][-1]:g} s, largest sheave_force {max(abs(found['sheave_force'])):.4g} N")
 """
 
 
-def raw_files(campaign: Path, folder: Path) -> list[tuple[Path, float, float]]:
-    """Write the runs of a campaign as loggers of three kinds; each file with mass [kg] and inertia [kg m2] of the sheave."""
+def raw_files(campaign: Path, folder: Path) -> list[tuple[Path, str]]:
+    """Write the runs of a campaign as loggers of three kinds; each file with the answers to questions about its sheave."""
     stated = tomllib.loads((campaign / "campaign.toml").read_text(encoding="utf-8"))
     sheave = tomllib.loads((campaign / stated["model"]).read_text(encoding="utf-8"))["sheave"]
     writers, found = (_semicolons, _workbook, _dates), []
     for place, run in enumerate(stated["runs"]):
         table = pd.read_csv(campaign / run["file"]).rename(columns=NAMES)
         path = writers[place % len(writers)](table, folder / Path(run["file"]).stem)
-        set_ = run.get("set", {})
-        found.append((path, set_.get("sheave.mass", sheave["mass"]), set_.get("sheave.inertia", sheave["inertia"])))
+        mass, inertia = (run.get("set", {}).get(f"sheave.{key}", sheave[key]) for key in ("mass", "inertia"))
+        found.append((path, f"{mass:g}\n" if mass == sheave["mass"] else f"{mass:g}\n{inertia:g}\n"))
     return found
 
 
@@ -128,7 +128,7 @@ def journey(campaign: Path, folder: Path) -> None:
     steps.call("build the wheel", [bin_ / "pip", "wheel", "-q", "--no-deps", "-w", "wheel", sources])
     wheel = next((folder / "wheel").glob("comprope-*.whl"))
     steps.call("pip install", [bin_ / "pip", "install", "-q", f"{wheel}[formats]"])
-    answers = "".join(f"{mass:g}\n" + ("" if place == 0 else f"{inertia:g}\n") for place, (_, mass, inertia) in enumerate(runs))
+    answers = "".join(one[1] for one in runs)
     print(steps.call("comprope new", [bin_ / "comprope", "new", "tower", *(one[0] for one in runs), "--model", model], answers))
     print(steps.call("comprope check", [bin_ / "comprope", "check", "tower"]))
     words = ["improve", "tower", "--out", "better.toml", "--report", "improve.html", "--fmu", "fmus"]

@@ -112,7 +112,8 @@ def unpacked(fmu: Path, folder: Path) -> Path:
 
 
 @pytest.mark.parametrize(
-    "values", [{}, EFFECTS, {"rope.element_length": 0.2, "shaft.height": 20.0, "counterweight_position": 20.0}]
+    "values",
+    [{}, EFFECTS | {"sheave.ropes": 3.0}, {"rope.element_length": 0.2, "shaft.height": 20.0, "counterweight_position": 20.0}],
 )
 @pytest.mark.parametrize("switches", [(False, False), (True, True)])
 def test_same_bits_as_just_in_time(pair: Pair, values: dict[str, float], switches: tuple[bool, bool]) -> None:

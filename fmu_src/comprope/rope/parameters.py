@@ -35,11 +35,25 @@ class Rope(Component):
 
 
 class Sheave(Component):
-    """Compensation sheave, free to move vertically and to rotate; mass and inertia are the share of one rope."""
+    """Compensation sheave, free to move vertically and to rotate; `ropes` ropes carry equal shares of its mass and inertia.
+
+    Forces, and torques and dampers of effects, are those of one rope. With `ropes` = 1 mass and inertia are one rope's share.
+    """
 
     mass: float = quantity("kg", "mass", 0.1, 20000.0, nominal=120.0)
     radius: float = quantity("m", "radius to the rope's centre line", 0.05, 3.0, nominal=0.4)
     inertia: float = quantity("kg.m2", "moment of inertia about the axle", 1e-4, 1e5, nominal=10.0)
+    ropes: float = quantity("1", "ropes that share mass and inertia; forces are those of one rope", 1.0, 50.0, default=1.0)
+
+    @property
+    def mass_per_rope(self) -> float:
+        """Mass that one rope carries [kg]."""
+        return self.mass / self.ropes
+
+    @property
+    def inertia_per_rope(self) -> float:
+        """Moment of inertia that one rope turns [kg m2]."""
+        return self.inertia / self.ropes
 
 
 class Contact(Component):

@@ -49,11 +49,12 @@ def _role(column: str, answer: str, role: Role, model: RopeModel) -> Role:
 
 def asked_changes(file: str, model: RopeModel, ask: Ask) -> Mapping[str, object]:
     """What differs from the model in a run: mass and, of another mass, inertia of the sheave, which no file states."""
-    mass = _number(file, "sheave.mass", "mass of the sheave in this run", "kg", model.sheave.mass, ask)
+    share = "one rope's share" if model.sheave.ropes == 1.0 else f"carried by {model.sheave.ropes:g} ropes"
+    mass = _number(file, "sheave.mass", f"mass of the sheave in this run, {share}", "kg", model.sheave.mass, ask)
     if mass == model.sheave.mass:
         return {}
     in_proportion = model.sheave.inertia * mass / model.sheave.mass
-    inertia = _number(file, "sheave.inertia", "moment of inertia of this sheave", "kg m2", in_proportion, ask)
+    inertia = _number(file, "sheave.inertia", f"moment of inertia of this sheave, {share}", "kg m2", in_proportion, ask)
     return {"sheave.mass": mass, "sheave.inertia": inertia}
 
 
@@ -71,7 +72,7 @@ def _number(file: str, key: str, what: str, unit: str, default: float, ask: Ask)
             raise InputError(f"{printable(file)}: {key} = {printable(answer)}: {accepted}")
         return value
 
-    return _answered(f"{printable(file)}: {what}, one rope's share [{unit}]", f"{default:g}", read, ask)
+    return _answered(f"{printable(file)}: {what} [{unit}]", f"{default:g}", read, ask)
 
 
 def _answered(question: str, default: str, read: Callable[[str], Answer], ask: Ask) -> Answer:

@@ -71,12 +71,12 @@ def side_string(model: Base, car: float, side: str = "counterweight") -> Hanging
     shaft, rope, sheave = model.shaft, model.rope, model.sheave
     end = car if side == "car" else shaft.height - car
     wrapped = rope.mass_per_length * pi * sheave.radius
-    tension = 0.5 * shaft.gravity * (sheave.mass + wrapped)
+    tension = 0.5 * shaft.gravity * (sheave.mass_per_rope + wrapped)
     return HangingString(tension, rope.mass_per_length, end + shaft.pit, shaft.gravity)
 
 
 def mass_for_period(model: Base, car: float, period: float) -> float:
-    """Sheave mass [kg] at which the counterweight's side has this first natural period [s], by the travel time.
+    """Sheave mass of one rope [kg] at which the counterweight's side has this first natural period [s], by the travel time.
 
     From (4/g)(sqrt(c0^2 + g L) - c0) = period with c0^2 = T0 / rho and T0 half the weight on the axle.
     """

@@ -76,7 +76,7 @@ def linearise(rope: CompensationRope) -> Linear:
 def _masses(rope: CompensationRope) -> Floats:
     node = rope.model.rope.mass_per_length * rope.element
     x, y = np.full(rope.n, node), np.full(rope.n, node)
-    return np.concatenate([x, [rope.model.sheave.mass], y, [rope.model.sheave.inertia]])
+    return np.concatenate([x, [rope.model.sheave.mass_per_rope], y, [rope.model.sheave.inertia_per_rope]])
 
 
 def _tangent(rope: CompensationRope, p: Floats, ck: float, cc: float) -> tuple[Floats, Floats, int, int]:

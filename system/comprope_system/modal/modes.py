@@ -97,7 +97,8 @@ def _place(rope: CompensationRope, motion: Floats, x: Floats) -> str:
     """Where most of the kinetic energy is: across the rope on either side, or along it and in the sheave."""
     node, sheave, lowest = rope.model.rope.mass_per_length * rope.element, rope.model.sheave, int(np.argmax(x))
     across = node * motion[1, :-1] ** 2
-    along = node * (motion[0, :-1] ** 2).sum() + sheave.mass * motion[0, -1] ** 2 + sheave.inertia * motion[1, -1] ** 2
+    turning = sheave.inertia_per_rope * motion[1, -1] ** 2
+    along = node * (motion[0, :-1] ** 2).sum() + sheave.mass_per_rope * motion[0, -1] ** 2 + turning
     car, other = float(across[:lowest].sum()), float(across[lowest:].sum())
     if along > max(car, other):
         return "sheave"

@@ -81,13 +81,15 @@ def string_parameters(model: Base) -> StringParameters:
     """A side of the model's rope; raises `InputError` where the sheave is too light for the rope to wrap it."""
     rope, sheave, g = model.rope, model.sheave, model.shaft.gravity
     wrapped = rope.mass_per_length * pi * sheave.radius
-    weight, least = 0.5 * g * (sheave.mass + wrapped), rope.bending_stiffness / (2.0 * sheave.radius**2)
+    weight, least = 0.5 * g * (sheave.mass_per_rope + wrapped), rope.bending_stiffness / (2.0 * sheave.radius**2)
     if weight <= least:
+        wraps = sheave.ropes * (2.0 * least / g - wrapped)
         raise InputError(
-            f"sheave.mass = {sheave.mass:g} kg: more than {2.0 * least / g - wrapped:.4g} kg is accepted for tuning; a lighter "
+            f"sheave.mass = {sheave.mass:g} kg: more than {wraps:.4g} kg is accepted for tuning; a lighter "
             "sheave hangs in a free loop of rope, for which the reduced model is not valid"
         )
-    rotating_mass, vertical_mass = 0.5 * (sheave.inertia / sheave.radius**2 + wrapped), 0.5 * (sheave.mass + wrapped)
+    rotating_mass = 0.5 * (sheave.inertia_per_rope / sheave.radius**2 + wrapped)
+    vertical_mass = 0.5 * (sheave.mass_per_rope + wrapped)
     damping = rope.external_damping / rope.mass_per_length
     return StringParameters(
         rope.mass_per_length, weight, rotating_mass, vertical_mass, rope.bending_stiffness, sheave.radius, damping, g

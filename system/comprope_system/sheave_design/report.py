@@ -26,7 +26,7 @@ def summary(result: Result) -> list[str]:
     """Results as lines of text."""
     places = ", ".join(f"{one['side']} {one['height']:.1f} m" for one in result["sensors"]["places"])
     return [
-        f"smallest sheave mass for {1e3 * result['limit']:g} mm: {result['mass']:.1f} kg per rope "
+        f"smallest sheave mass for {1e3 * result['limit']:g} mm: {result['mass']:.1f} kg as sheave.mass "
         f"(reduced model: {result['mass_small']:.1f} kg)",
         f"sensors: {places}; one of them measures at least {100.0 * result['sensors']['share']:.0f} % of any large swing",
     ]
@@ -58,7 +58,7 @@ def _mass(result: Result) -> list[Block]:
         "mass shifts this floor, and parking at another floor avoids the resonance. " if sway else ""
     )  # fmt: skip
     text = (
-        f"{result['mass']:.1f} kg per rope keep the swing below {1e3 * result['limit']:g} mm on all trips between "
+        f"{result['mass']:.1f} kg as sheave.mass keep the swing below {1e3 * result['limit']:g} mm on all trips between "
         f"{result['floors']} floors{kept}. For a mass near this one the worst trip is from {worst['trip'][0]:g} to "
         f"{worst['trip'][1]:g} m. The mass is scanned with the reduced linear model; the worst trip is simulated with the "
         f"full model, and the mass increased until it meets the limit. {swayed}Building sway is evaluated with the reduced "

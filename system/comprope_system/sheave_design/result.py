@@ -21,7 +21,7 @@ PAGE, RESULT = "design.html", "result.json"
 class DesignResult(Result):
     """Sheave mass for a limit of the swing, and sensor heights.
 
-    `sheave_mass` [kg] is the least for each rope on the full model, `reduced_model_mass` that of the reduced model; `scanned` has
+    `sheave_mass` [kg] is the least `sheave.mass` on the full model, `reduced_model_mass` that of the reduced model; `scanned` has
     the worst trip and the worst parked floor by mass, `full_model_runs` pairs of mass [kg] and swing [m], `sensors` the heights
     [m] on each side and the share of a large swing that they see. `model` is the model as given, `new_model` has the new sheave.
     """

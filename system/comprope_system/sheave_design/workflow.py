@@ -111,7 +111,7 @@ def _millimetres(length: float) -> float:
 
 def _wraps(model: RopeModel, mass: float) -> bool:
     """Whether the rope wraps a sheave of this mass [kg] well enough for the reduced model."""
-    weight = 0.5 * model.shaft.gravity * mass
+    weight = 0.5 * model.shaft.gravity * mass / model.sheave.ropes
     return weight > model.rope.bending_stiffness / model.sheave.radius**2
 
 

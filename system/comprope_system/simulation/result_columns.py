@@ -37,7 +37,7 @@ ROPE = (
     _rope("sheave_velocity", "m/s", "of the sheave's axle, up positive"),
     _rope("sheave_angle", "rad", "turn of the sheave, positive while the car goes up"),
     _rope("sheave_angular_velocity", "rad/s", "positive while the car goes up"),
-    _rope("sheave_force", "N", "force of the rope on the sheave, up positive"),
+    _rope("sheave_force", "N", "force of one rope on the sheave, up positive"),
     _rope("car_end_tension", "N", "pull of the rope on the car"),
     _rope("counterweight_end_tension", "N", "pull of the rope on the counterweight"),
     _rope("car_side_max_displacement", "m", "largest outward displacement on the car side"),

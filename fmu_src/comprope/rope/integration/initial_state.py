@@ -8,10 +8,10 @@ from ..mechanics.energy import begin_balance
 from ..mechanics.equations_of_motion import forces_of_state
 from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Ends, Motion, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import ELEMENT, HEIGHT, PIT, M, R
+from ..runtime.parameter_vector import ELEMENT, HEIGHT, PIT, R
 from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_PLACE, OUT_OF_REACH, SUCCESS
 from .inputs import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
-from .mesh import rope_length
+from .mesh import MASS, rope_length
 from .newmark import copy
 from .static_equilibrium import solve_equilibrium
 
@@ -83,7 +83,7 @@ def start_at_rest(rope: RopeData, ends: Ends, state: State, work: Workspace, t: 
         v[i] = 0.0
         a[i] = 0.0
     if solve_equilibrium(n, rope.frictionless, Motion(q, v, a), state.history, work) < 0.0:
-        work.message[0], work.message[1], work.message[2] = u[CAR], u[COUNTERWEIGHT], p[M]
+        work.message[0], work.message[1], work.message[2] = u[CAR], u[COUNTERWEIGHT], p[MASS]
         return NO_EQUILIBRIUM
     for k in range(2):  # once for the shape where histories begin, once with them
         forces_of_state(rope, state, work, t, Weights(0.0, 0.0), False)

@@ -4,10 +4,11 @@ from math import pi, sqrt
 
 from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import RopeData, Workspace
-from ..runtime.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, K, M, R, slot
+from ..runtime.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, J, K, M, R, slot
 from ..runtime.status import SUCCESS, TOO_COARSE
 
 LENGTH = slot("rope.element_length")
+MASS, INERTIA, ROPES = slot("sheave.mass"), slot("sheave.inertia"), slot("sheave.ropes")
 FEWEST_ELEMENTS = 16
 
 
@@ -41,9 +42,17 @@ def element_length(p, elements):
 
 
 @kernel
+def share_sheave(p):
+    """Set the mass and inertia that one rope carries."""
+    p[M] = p[MASS] / p[ROPES]
+    p[J] = p[INERTIA] / p[ROPES]
+
+
+@kernel
 def generate_mesh(rope: RopeData) -> float:
-    """Set the length of whole elements that make up the rope; returns the number of nodes."""
+    """Set what is derived: one rope's share of the sheave, and the length of whole elements; returns the number of nodes."""
     p = rope.p
+    share_sheave(p)
     elements = max(round(rope_length(p) / p[LENGTH]), FEWEST_ELEMENTS)
     p[ELEMENT] = element_length(p, elements)
     return elements + 1.0

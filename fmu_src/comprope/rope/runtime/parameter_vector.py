@@ -1,10 +1,12 @@
 """The flat parameter vector that the kernels read: one slot for each declared quantity.
 
 Slots are compile-time constants in the kernels. Base components come first, then effects in the
-order in which they register; `element` is derived, since the mesh makes the natural length exact.
+order in which they register. Derived are `element`, since the mesh makes the natural length exact, and one rope's share of the
+sheave's mass and inertia, with which the kernels compute.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from ...errors import InputError
 from ...quantities import Component, Quantity, quantities
@@ -24,6 +26,9 @@ def declare(prefix: str, component: type[Component]) -> None:
 for _prefix, _component in COMPONENTS.items():
     declare(_prefix, _component)
 DECLARED["derived.element"] = Quantity("element", "m", "exact element length", 0.0, 10.0, 0.05, 0.05, None)
+for _name in ("mass", "inertia"):
+    _whole = DECLARED[f"sheave.{_name}"]
+    DECLARED[f"derived.{_name}_per_rope"] = replace(_whole, name=f"{_name}_per_rope", help=f"one rope's share of the {_name}")
 
 
 def slot(name: str) -> int:
@@ -46,9 +51,9 @@ EI = slot("rope.bending_stiffness")
 CA = slot("rope.axial_damping")
 CB = slot("rope.bending_damping")
 CE = slot("rope.external_damping")
-M = slot("sheave.mass")
+M = slot("derived.mass_per_rope")
 R = slot("sheave.radius")
-J = slot("sheave.inertia")
+J = slot("derived.inertia_per_rope")
 K = slot("contact.stiffness")
 C = slot("contact.damping")
 MU = slot("contact.friction_coefficient")

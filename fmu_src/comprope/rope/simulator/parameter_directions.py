@@ -7,9 +7,9 @@ import numpy as np
 from ...errors import InputError
 from ...quantities import quantities
 from ..effects.base import REGISTRY
-from ..integration.mesh import element_length
+from ..integration.mesh import INERTIA, MASS, ROPES, element_length
 from ..runtime.kernel_arguments import Array
-from ..runtime.parameter_vector import DECLARED, ELEMENT, R, slot
+from ..runtime.parameter_vector import DECLARED, ELEMENT, J, M, R, slot
 from ..sensitivity.effects import CHANGED_EFFECTS, CHANGED_HISTORY, NEW_EFFECTS, NO_EFFECTS
 from .rope import CompensationRope
 
@@ -27,6 +27,7 @@ def parameter_change(rope: CompensationRope, direction: Direction) -> Array:
         if key not in DECLARED or key.startswith(("solver.", "derived.")) or key == "rope.element_length":
             raise InputError(f"{key}: no sensitivity; a physical parameter such as rope.bending_stiffness is accepted")
         dp[slot(key)] = amount
+    dp[M], dp[J] = ((dp[whole] - rope.p[share] * dp[ROPES]) / rope.p[ROPES] for whole, share in ((MASS, M), (INERTIA, J)))
     step, elements = largest_step(rope.p, dp), rope.n - 1
     longer, shorter = (element_length(rope.p + sign * step * dp, elements) for sign in (1.0, -1.0))
     dp[ELEMENT] = (longer - shorter) / (2.0 * step)
@@ -38,6 +39,7 @@ def replaced(p: Array, values: Direction) -> Array:
     other = p.copy()
     for key, value in values.items():
         other[slot(key)] = value
+    other[M], other[J] = other[MASS] / other[ROPES], other[INERTIA] / other[ROPES]
     return other
 
 

@@ -12,7 +12,7 @@ ENDS = ("car", "counterweight")
 # The inputs that a rope at rest depends on; velocities and accelerations matter from the first step.
 _PLACES = (*(f"{end}_position" for end in ENDS), *(f"{end}_lateral_displacement" for end in ENDS))
 _OUTPUTS = (  # name, unit, nominal, help
-    ("sheave_force", "N", 1000.0, "vertical force of the rope on the sheave, up positive; its weight when at rest"),
+    ("sheave_force", "N", 1000.0, "vertical force of one rope on the sheave, up positive; its share of the weight when at rest"),
     ("sheave_displacement", "m", 0.01, "height of the axle above where it is built, up positive"),
     ("sheave_velocity", "m/s", 0.01, "vertical velocity of the sheave, up positive"),
     ("sheave_angle", "rad", 100.0, "angle of the sheave, positive while the car goes up"),

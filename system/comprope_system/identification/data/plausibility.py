@@ -151,12 +151,12 @@ def _size(run: Run, model: RopeModel, channel: Channel, value: Floats) -> Iterat
     if channel.quantity.endswith("tension") and channel.reference == "absolute" and run.rest.any():
         end = run.trip if channel.quantity.startswith("car") else run.counterweight
         length = model.shaft.pit + float(end.position(run.time[:1])[0])
-        expected = model.shaft.gravity * (0.5 * model.sheave.mass + model.rope.mass_per_length * length)
+        expected = model.shaft.gravity * (0.5 * model.sheave.mass_per_rope + model.rope.mass_per_length * length)
         ratio = float(np.nanmedian(value[run.rest])) / expected
         if not 1.0 / PLAUSIBILITY.tension < ratio < PLAUSIBILITY.tension:
             yield (
                 f"{channel.column}: {ratio:.3g} times the weight that one rope carries at rest, {expected / scale:.4g} {unit}: "
-                "check its unit; sheave.mass and sheave.inertia are one rope's share, and so are tensions"
+                "check its unit; tensions are one rope's, and so are sheave.mass and sheave.inertia unless sheave.ropes is set"
             )
 
 

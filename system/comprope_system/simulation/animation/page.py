@@ -29,7 +29,7 @@ def save_trip_page(
 ) -> None:
     """Write the page of a simulated trip of the model called `name`, completely or not at all."""
     car = trip.table["car_position"]
-    lead = _LEAD.format(distance=float(car.max() - car.min()), height=model.shaft.height, mass=model.sheave.mass)
+    lead = _LEAD.format(distance=float(car.max() - car.min()), height=model.shaft.height, mass=model.sheave.mass_per_rope)
     moving = Animation("trip", animation_data(model, recording.frames, recording.interval, traces(trip, measured)), _CAPTION)
     sections = [
         Section("motion", "Animation", [moving]),
