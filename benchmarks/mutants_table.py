@@ -293,7 +293,7 @@ MUTANTS = [
         "whitening", CHANNEL_NOISE,
         ("mean_at_rest_of_one_sample", "* inflation / max(count, 1)", "* inflation", WHITE),
         ("mean_at_rest_between_levels", "self.resolution**2 / 12.0 if held", "0.0 if held", NOISY),
-        ("spread_of_a_difference", " / 2.0**0.5 if", " if", NOISY),
+        ("spread_of_a_difference", " / gain if", " if", NOISY),
         ("coarse_digits_contradict", "NOISE.quantisation_ratio * stated", "0.0 * stated", WHITE),
         ("stated_noise_in_the_column_s_unit", "(channel.noise or 0.0) * channel.scale", "(channel.noise or 0.0)", NOISY),
         ("short_rest_contradicts", "if sum(map(len, records)) < NOISE.min_rest_samples:", "if not records:",

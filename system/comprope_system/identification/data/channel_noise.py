@@ -104,18 +104,19 @@ def _longest_stretch(values: Floats) -> Floats:
     return values[gaps[longest] : gaps[longest + 1] - 1]
 
 
-def spread_of_steps(value: Floats) -> float:
-    """Standard deviation of white noise in `value` (n,), from the median absolute deviation of successive differences.
+def spread_of_steps(value: Floats, order: int = 1) -> float:
+    """Standard deviation of white noise in `value` (n,), from the median absolute deviation of differences of some order.
 
-    Neither drift nor outliers contribute.
+    Neither drift nor outliers contribute, and the higher the order, the less does what is slow beside the sampling rate.
     """
-    steps = np.diff(value[np.isfinite(value)])
-    return NOISE.mad_factor * float(np.median(np.abs(steps - np.median(steps)))) / 2.0**0.5 if len(steps) else 0.0
+    steps = np.diff(value[np.isfinite(value)], order)
+    gain = comb(2 * order, order) ** 0.5
+    return NOISE.mad_factor * float(np.median(np.abs(steps - np.median(steps)))) / gain if len(steps) else 0.0
 
 
 def _without_rest(values: Sequence[Floats]) -> float:
-    """Deviation [SI] where no rest is long enough: that of white noise, from the steps of whole runs."""
-    steps = float(np.median([spread_of_steps(one) for one in values])) if values else 0.0
+    """Deviation [SI] where no rest is long enough: that of white noise, from the differences of whole runs."""
+    steps = float(np.median([spread_of_steps(one, NOISE.differences) for one in values])) if values else 0.0
     return max(steps, NOISE.floor + NOISE.floor_share * _largest_spread(values))
 
 
