@@ -15,7 +15,8 @@ ALLOWED = {
     # The layout of printed text and pages:
     ("reporting/formatting.py", "WIDTH"),
     ("reporting/formatting.py", "ZERO"),
-    ("reporting/run_curves.py", "BAND"), ("reporting/tables.py", "SHOWN"),
+    ("reporting/run_curves.py", "BAND"),
+    ("reporting/tables.py", "SHOWN"),
     ("reporting/diagnosis_page.py", "RUNS_SHOWN"),
     ("result/diagnosis.py", "RUNS"),
 }

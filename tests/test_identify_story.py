@@ -21,11 +21,14 @@ from comprope_system.identification.comparison.error_metrics import ORDERS
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.experiment_design import best_two_fits
 from comprope_system.identification.diagnosis.held_out_validation import to_json, validate
+from comprope_system.identification.estimation.parameter_estimates import effect_estimates, standard_error_scale
 from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect
 from comprope_system.identification.hypotheses.model_effects import shape_hypotheses
 from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.model_updating import stepwise_selection as steps
 from comprope_system.identification.model_updating.add_effect import campaign_parameters, file_comment, fit_baseline
+from comprope_system.identification.reporting.effect_descriptions import meaning
+from comprope_system.identification.reporting.verdict_card import verdict_card
 from comprope_system.identification.residuals.residual_correlation import residual_correlations
 from comprope_system.identification.result.diagnosis import DiagnosisResult
 from comprope_system.identification.result.updating import AddResult
@@ -241,6 +244,24 @@ def test_a_diagnosis_is_one_result(validated, tmp_path):
     assert "Plant parameters" in (tmp_path / "page.html").read_text("utf-8")
 
 
+def test_the_card_of_a_verdict_says_what_the_result_says(validated):
+    card = verdict_card(validated, ())
+    fitted = validated.diagnosis.ranking[0].fitted
+    estimate = effect_estimates(fitted, standard_error_scale(fitted, len(validated.diagnosis.problem.data)))
+    one = estimate["effects.sheave_eccentricity.eccentricity"]
+    assert (card.kind, card.title, card.texts) == ("Missing effect", "Sheave eccentricity", [meaning("sheave_eccentricity")])
+    ((name, value, interval),) = card.values  # no phase
+    assert (name, value) == ("eccentricity", f"{float(f'{1e3 * one.value:.3g}'):g} mm")
+    low, high = (float(text.split()[0]) for text in interval.removeprefix("95 %: ").split(" to "))
+    assert (low, high) == pytest.approx((1e3 * one.low, 1e3 * one.high), rel=6e-3) and low < 1e3 * one.value < high
+    facts = dict(card.facts)
+    others = {name: p for name, p in validated.diagnosis.probabilities.items() if name != "sheave_eccentricity"}
+    assert facts["runner-up"].startswith(max(others, key=others.get).replace("_", " ").replace("unknown", "an unknown effect"))
+    assert f"{100.0 * validated.best.fit_nrmse:.3g} %" in facts["error"]
+    assert facts["next run to measure"].startswith("none") and "sheave eccentricity" not in facts["could not have been seen"]
+    assert card.command.startswith("comprope ") and str(validated.diagnosis.campaign.folder) in card.command
+
+
 def test_an_effect_with_its_shape_freed_is_one_step(monkeypatch):
     """Hysteresis with its yield curvature fitted as well stands as two parts in the hypothesis and is added once."""
     effect = hypotheses_of_effect(REGISTRY["bending_hysteresis"], ())[0]
@@ -269,4 +290,6 @@ def test_a_sound_elevator_is_called_adequate(capsys, tmp_path):
     assert (done.value.code, errors) == (0, "")
     found = json.loads(out.read_text())
     assert found["verdict"] is None and found["verdict_kind"] == "adequate"
-    assert "Nothing is missing" in told and "To add it" not in told
+    assert "Nothing is missing" in told and "Next command" not in told
+    page = (tmp_path / "d.html").read_text("utf-8")
+    assert '<p class="title">Nothing is missing</p>' in page and "next command" not in page

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from comprope.atomic_files import atomic_write
 
+from .card import Card
 from .curves import Curves
 from .heat_map import HeatMap
 
@@ -72,7 +73,7 @@ class Animation:
     caption: str = ""
 
 
-Block = str | Table | HeatMap | Picture | Curves | Animation
+Block = str | Card | Table | HeatMap | Picture | Curves | Animation
 
 
 @dataclass(frozen=True)

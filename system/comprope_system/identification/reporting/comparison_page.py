@@ -24,7 +24,7 @@ def save_comparison(path: Path, comparison: Comparison, remarks: Sequence[str]) 
         data_quality_section(remarks),
         Section("runs", "Measured and simulated", [run_curves(CURVES, {"model": comparison}, worst_run(comparison))]),
         _position_section(comparison),
-        order_section(comparison, "Residual by order of the sheave's rotation"),
+        order_section(comparison, "Residual by order of the sheave's rotation", "the model as given"),
     ]
     title = f"{comparison.campaign.name}: model and measurement"
     lead = " ".join([sentences.largest_error_sentence(comparison), *sentences.comparison_sentences(comparison)])
@@ -48,18 +48,17 @@ def _position_section(comparison: Comparison) -> Section:
     return Section("where", "Residual by car position and frequency", blocks)
 
 
-def order_section(comparison: Comparison, title: str) -> Section:
-    """Order spectrum of the residual."""
+def order_section(comparison: Comparison, title: str, fit: str, folded: bool = False) -> Section:
+    """Order spectrum of the residual of a fit that `fit` names."""
     text = (
-        "Amplitude of the residual over the order: periods per revolution of the sheave. A line at order 1 in every run is "
+        f"Residual of {fit}. Amplitude over the order: periods per revolution of the sheave. A line at order 1 in every run is "
         "caused by the sheave's rotation."
     )
-    return Section("orders", title, [text, order_curves(comparison)])
+    return Section("orders", title, [text, order_curves(comparison)], folded=folded)
 
 
-def before_and_after(before: Comparison, after: Comparison) -> Section:
-    """Each run before and after; of the runs, the worst is shown first."""
-    caption = "Before: the model as given. After: the model with the effect and plant parameters as fitted."
+def before_and_after(before: Comparison, after: Comparison, fit: str) -> Section:
+    """Each run before and after, as of a fit that `fit` names; of the runs, the worst is shown first."""
+    caption = f"Before: the model as given. After: {fit}. Numbers beside a channel are those after."
     curves = run_curves(CURVES, {"before": before, "after": after}, worst_run(before), caption)
-    errors = heat_maps.error_map(after, CURVES)
-    return Section("picture", "Before and after", [curves, errors])
+    return Section("picture", "Before and after", [curves, heat_maps.error_map(after, CURVES, f"After: {fit}. ")])

@@ -5,11 +5,13 @@ from pathlib import Path
 
 from ...report.page import Block, Picture, Section, Table, save_page
 from ..diagnosis.experiment_design import ProposedRun, best_two_fits
-from ..diagnosis.held_out_validation import ValidatedDiagnosis, ranking
+from ..diagnosis.held_out_validation import ValidatedDiagnosis, implausible_parameters, ranking
 from ..residuals.input_estimation import InputEstimation
 from ..residuals.residual_correlation import ResidualCorrelation, correlation_sentences
+from ..settings import CORRELATION, EXPERIMENTS
 from . import figures, sentences, tables
 from .comparison_page import before_and_after, data_quality_section, order_section
+from .verdict_card import verdict_card
 
 PLANT = (
     "If an effect is missing from the model, the fit changes plant parameters to compensate for it. Deviations of several prior "
@@ -27,25 +29,41 @@ def save_diagnosis(
     proposals: Sequence[ProposedRun],
 ) -> None:
     """Write the page of a diagnosis, completely or not at all."""
-    found = validated.diagnosis
+    found, fit = validated.diagnosis, fit_name(validated)
     first, *rest = sentences.verdict_sentences(validated)
+    certain = not found.indistinguishable and max(found.probabilities.values()) > EXPERIMENTS.conclusive_probability
     sections = [
-        Section("verdict", "Verdict", [*rest, *_ranking_blocks(validated)]),
+        Section("verdict", "Verdict", [verdict_card(validated, proposals), *rest]),
         data_quality_section(validated.remarks),
-        before_and_after(validated.before, validated.best),
+        before_and_after(validated.before, validated.best, fit),
     ]
     if correlations:
-        sections.append(Section("correlations", "Residual correlations", _correlation_blocks(correlations, rest_ratio)))
+        clear = any(one.share > CORRELATION.min_share for one in correlations)
+        blocks = _correlation_blocks(correlations, rest_ratio)
+        sections.append(Section("correlations", "Residual correlations", blocks, folded=not clear))
     if force:
         sections.append(Section("force", "Estimated force", _force_blocks(validated, force)))
     sections += [
+        Section("ranking", "Ranking of all effects", _ranking_blocks(validated), folded=certain),
         Section("limits", "Indistinguishable effects and detection limits", _limit_blocks(validated)),
-        Section("plant", "Plant parameters", [PLANT, tables.plant_table(found)]),
-        order_section(validated.best, "Residual by order of the sheave's rotation"),
+        Section("plant", "Plant parameters", _plant_blocks(validated), folded=not implausible_parameters(found)),
+        order_section(validated.best, "Residual by order of the sheave's rotation", fit, folded=True),
     ]
     if proposals:
         sections.append(Section("next", "Proposed next run", _next_run_blocks(validated, proposals)))
     save_page(path, f"{found.campaign.name}: diagnosis", first, sections)
+
+
+def fit_name(validated: ValidatedDiagnosis) -> str:
+    """The fit that the page shows as the result."""
+    if not validated.diagnosis.verdict:
+        return "the model with refitted plant parameters, no effect"
+    return f"the model with {tables.effect_names(ranking(validated)[0])} and refitted plant parameters"
+
+
+def _plant_blocks(validated: ValidatedDiagnosis) -> list[Block]:
+    """Plant parameters of the verdict's fit."""
+    return [f"Fit: {fit_name(validated)}.", PLANT, tables.plant_table(validated.diagnosis)]
 
 
 def _ranking_blocks(validated: ValidatedDiagnosis) -> list[Block]:
@@ -53,22 +71,27 @@ def _ranking_blocks(validated: ValidatedDiagnosis) -> list[Block]:
     entries = ranking(validated)
     names = [tables.effect_names(one) for one in entries]
     plant = (validated.refitted.fit_nrmse, validated.refitted.validate_nrmse)
-    caption = "Effects marked as linearised were not fitted on the full model: their errors are those of the linear screening."
+    caption = (
+        "Each effect with plant parameters refitted to it. Effects marked as linearised were not fitted on the full model: "
+        "their errors are those of the linear screening."
+    )
     return [Picture("ranking", figures.ranking(entries, names, plant), caption), tables.ranking_table(validated)]
 
 
 def _limit_blocks(validated: ValidatedDiagnosis) -> list[Block]:
     """Pairs of indistinguishable effects, and detection limits."""
     pairs = [f"{a} and {b}" for a, b in validated.diagnosis.indistinguishable]
-    text = f"Indistinguishable with these data: {'; '.join(pairs)}."
-    return [text if pairs else "All effects are distinguishable with these data.", tables.detection_limit_table(validated)]
+    alike = f"Indistinguishable with these data: {'; '.join(pairs)}."
+    text = alike if pairs else "All effects are distinguishable with these data."
+    limits = "Detection limits are those of a linear screening about the fit of the plant parameters alone."
+    return [text, limits, tables.detection_limit_table(validated)]
 
 
 def _correlation_blocks(correlations: Sequence[ResidualCorrelation], rest_ratio: float) -> list[Block]:
     """Sentences and bars: what the residual correlates with."""
     method = (
-        "Cross-validated: profiles are estimated from all runs but one and evaluated on that one; a sinusoid in time or in the "
-        "sheave's angle has a free phase in each run."
+        "Residual of the model with refitted plant parameters, no effect. Cross-validated: profiles are estimated from all runs "
+        "but one and evaluated on that one; a sinusoid in time or in the sheave's angle has a free phase in each run."
     )
     return [
         *(f"{text[0].upper()}{text[1:]}." for text in correlation_sentences(list(correlations), rest_ratio)),

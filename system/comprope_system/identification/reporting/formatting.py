@@ -8,6 +8,10 @@ import numpy as np
 from ...report.page import Table
 
 WIDTH = 100  # of lines on a terminal
+HANDY_UNITS = (  # SI unit, from and below which largest value, factor, unit
+    ("m", 0.0, 1.0, 1e3, "mm"), ("m/s", 0.0, 1.0, 1e3, "mm/s"), ("s", 0.0, 1.0, 1e3, "ms"), ("N", 1e4, 1e12, 1e-3, "kN"),
+    ("N.s/m", 1e4, 1e12, 1e-3, "kN·s/m"), ("N.m", 1e4, 1e12, 1e-3, "kN·m"),
+)  # fmt: skip
 ZERO = 1e-9  # parameters of smaller size are shown as zero
 
 
@@ -19,6 +23,21 @@ def percent(share: float | None) -> str:
 def number(value: float | None) -> str:
     """A number of three digits; a dash where there is none."""
     return "–" if value is None or not np.isfinite(value) else f"{float(f'{value:.3g}'):g}"
+
+
+def in_handy_unit(unit: str, *values: float) -> tuple[str, ...]:
+    """Values [SI unit] as texts of three digits in one handy unit: millimetres, milliseconds, kilonewtons."""
+    size = max(map(abs, values))
+    factor, shown = next(
+        ((by, name) for of, least, most, by, name in HANDY_UNITS if of == unit and least <= size < most),
+        (1.0, "" if unit == "1" else unit.replace(".", "·")),
+    )
+    return tuple(f"{number(value * factor)} {shown}".strip() for value in values)
+
+
+def listed_words(words: Sequence[str]) -> str:
+    """Words as a list in a sentence."""
+    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
 
 
 def wrapped(*sentences: str) -> list[str]:

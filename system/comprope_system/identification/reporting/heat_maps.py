@@ -16,7 +16,7 @@ from .run_curves import channels_shown
 Floats = NDArray[np.float64]
 
 
-def error_map(comparison: Comparison, curves: str) -> HeatMap:
+def error_map(comparison: Comparison, curves: str, caption: str = "") -> HeatMap:
     """Errors by run and channel, and NRMSE by phase of the trip; each leads to its panel in the figure `curves`."""
     names = [name.replace("_", " ") for name in PHASES]
     head = ("channel", "NRMSE", "RMS error", "red. χ²", *names)
@@ -24,7 +24,7 @@ def error_map(comparison: Comparison, curves: str) -> HeatMap:
     for k, run in enumerate(comparison.runs):
         rows.append([f"{run.file} ({run.role}): NRMSE {percent(run.nrmse)}"])
         rows += (_error_row(k, run, j, curves) for j in range(len(run.channels)))
-    return HeatMap(head, rows, caption=f"NRMSE by phase of the trip; a click shows the curves. {level_sentence()}")
+    return HeatMap(head, rows, caption=f"{caption}NRMSE by phase of the trip; a click shows the curves. {level_sentence()}")
 
 
 def _error_row(k: int, run: RunComparison, j: int, curves: str) -> list[str | HeatCell]:

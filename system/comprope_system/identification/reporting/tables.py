@@ -52,7 +52,7 @@ def ranking_table(validated: ValidatedDiagnosis, most: int = 100) -> Table:
         for one in ranking(validated)[:most]
     ]  # fmt: skip
     before = f"{percent(validated.before.fit_nrmse)} and {percent(validated.before.validate_nrmse)}"
-    return Table(head, rows, f"NRMSE with the effect; {before} without it, model as given")
+    return Table(head, rows, f"NRMSE with the effect, plant parameters refitted with it; {before} for the model as given")
 
 
 def effect_names(entry: Mapping[str, Any]) -> str:

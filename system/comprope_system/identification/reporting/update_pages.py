@@ -35,9 +35,10 @@ def save_selection(path: Path, found: StepwiseSelection) -> None:
 
 def _model_sections(updated: UpdatedModel) -> list[Section]:
     """Estimates, and residuals before and after."""
+    fit = f"{updated.effect} and plant parameters as fitted"
     estimates: list[Block] = [ESTIMATES, tables.estimate_table(updated.effects), tables.estimate_table(updated.plant)]
     return [
         Section("estimates", "Estimates", estimates),
-        before_and_after(updated.before, updated.after),
-        order_section(updated.after, "Residual by order of the sheave's rotation, after"),
+        before_and_after(updated.before, updated.after, fit),
+        order_section(updated.after, "Residual by order of the sheave's rotation, after", fit, folded=True),
     ]

@@ -10,10 +10,11 @@ from ...report.json_output import plain
 from ...report.result import Result
 from ..data.campaign import Campaign
 from ..diagnosis.experiment_design import ProposedRun
-from ..diagnosis.held_out_validation import ValidatedDiagnosis, full_name, plant, ranking, to_json
+from ..diagnosis.held_out_validation import ValidatedDiagnosis, plant, ranking, to_json
 from ..estimation.parameter_estimates import Estimate
 from ..reporting import sentences, tables
 from ..reporting.formatting import listed, paragraphs, text_table, wrapped
+from ..reporting.verdict_card import next_command
 from ..residuals.input_estimation import InputEstimation
 from ..residuals.residual_correlation import ResidualCorrelation, correlation_sentences
 
@@ -96,11 +97,8 @@ class DiagnosisResult(Result):
         )
 
     def _next_command(self) -> list[str]:
-        if not self.verdict:
-            return []
-        command = "comprope --allow-code add" if self.campaign.model.own_effects else "comprope add"
-        effect = full_name(self.validated.diagnosis.ranking[0].hypothesis)
-        return [f"To add it: {command} {self.campaign.folder} {effect} --out MODEL.toml"]
+        command = next_command(self.validated)
+        return [f"Next command: {command}"] if command else []
 
     def to_json(self) -> dict[str, Any]:
         """Verdict, ranking, plant parameters, correlations (`clues` is their older name), proposed runs, estimated force."""

@@ -1,0 +1,158 @@
+"""The card of a verdict: which effect, how large, what else it could be, and what to do next."""
+
+from collections.abc import Sequence
+from shlex import quote
+
+from comprope.quantities import quantities
+from comprope.rope.effects import REGISTRY
+
+from ...report.card import Card
+from ..diagnosis.diagnose import Candidate, Diagnosis
+from ..diagnosis.experiment_design import ProposedRun
+from ..diagnosis.held_out_validation import ValidatedDiagnosis, effects_of, full_name, ranking, reduced_chi_square
+from ..estimation.parameter_estimates import Estimate, effect_estimates, standard_error_scale
+from ..settings import VERDICT
+from .effect_descriptions import drawing, meaning
+from .formatting import in_handy_unit, listed_words, percent, probability
+
+KINDS = {
+    "known_effect": "Missing effect", "instrument": "Faulty instrument", "adequate": "Adequate model",
+    "unknown_effect": "Unknown effect",
+}  # fmt: skip
+NAMES = {"adequate": "nothing missing", "unknown": "an unknown effect"}
+
+
+def verdict_card(validated: ValidatedDiagnosis, proposals: Sequence[ProposedRun]) -> Card:
+    """The verdict at a glance."""
+    found = validated.diagnosis
+    names = effects_of(found.ranking[0].hypothesis) if found.verdict else [_winner(found)]
+    names = list(dict.fromkeys(names))
+    title = listed_words([_readable(one) for one in names]) if found.verdict else _titles(found)
+    facts = [
+        ("probability", probability(found.probabilities[_winner(found)])),
+        ("error", _error(validated)),
+        ("runner-up", _runner_up(validated)),
+        ("looks the same", _indistinguishable(found)),
+        ("could not have been seen", _unseen(found, names)),
+        ("next run to measure", _next_run(found, proposals)),
+    ]
+    values = _values(found) if found.verdict else []
+    drawings, texts = [drawing(one) for one in names], [meaning(one) for one in names]
+    return Card(KINDS[found.kind], title[0].upper() + title[1:], texts, drawings, values, facts, next_command(validated))
+
+
+def next_command(validated: ValidatedDiagnosis) -> str:
+    """The command to type after this diagnosis; empty if nothing is missing."""
+    found = validated.diagnosis
+    program = "comprope --allow-code" if found.campaign.model.own_effects else "comprope"
+    folder = quote(str(found.campaign.folder))
+    if found.kind == "adequate":
+        return ""
+    if found.kind == "unknown_effect" or incomplete(validated):
+        return f"{program} improve {folder} --out MODEL.toml"
+    return f"{program} add {folder} {quote(full_name(found.ranking[0].hypothesis))} --out MODEL.toml"
+
+
+def _winner(found: Diagnosis) -> str:
+    """The name of the verdict among the probabilities."""
+    return found.ranking[0].hypothesis.effect if found.verdict else "adequate" if found.kind == "adequate" else "unknown"
+
+
+def _titles(found: Diagnosis) -> str:
+    return "nothing is missing" if found.kind == "adequate" else "none of the known effects explains the residual"
+
+
+def _readable(name: str) -> str:
+    return NAMES.get(name, name.replace("_", " "))
+
+
+def _values(found: Diagnosis) -> list[tuple[str, str, str]]:
+    """Parameters of the verdict's effects in handy units with their 95 % intervals; a phase says nothing by itself."""
+    fitted = found.ranking[0].fitted
+    estimates = effect_estimates(fitted, standard_error_scale(fitted, len(found.problem.data)))
+    return [_value(found, key, one) for key, one in estimates.items() if key.split(".")[2] != "phase"]
+
+
+def _value(found: Diagnosis, key: str, one: Estimate) -> tuple[str, str, str]:
+    _, effect, name = key.split(".", 2)
+    unit = _unit(found, effect, name)
+    value, low, high = in_handy_unit(unit, one.value, one.low, one.high)
+    label = f"{effect.removeprefix('sensor_')} of {name}" if effect not in REGISTRY else name.replace("_", " ")
+    interval = f"95 %: {low} to {high}" if one.standard_error > 0.0 else "not fitted"
+    return label, value, interval
+
+
+def _unit(found: Diagnosis, effect: str, name: str) -> str:
+    """The SI unit of a parameter of an effect; that of a fault of an instrument depends on its channel."""
+    if effect in REGISTRY:
+        return next(one.unit for one in quantities(REGISTRY[effect]) if one.name == name)
+    quantity = found.campaign.channels[name].quantity
+    shown = {"sheave_angular_velocity": "rad/s"}.get(quantity, "m" if "displacement" in quantity else "N")
+    return {"sensor_gain": "1", "sensor_delay": "s", "sensor_drift": f"{shown}/s"}.get(effect, shown)
+
+
+def _error(validated: ValidatedDiagnosis) -> str:
+    """NRMSE before and after on fit and validation runs, and what noise alone would give."""
+    before, after = validated.before, validated.best
+    which = "with it" if validated.diagnosis.verdict else "with refitted plant parameters"
+    noise = percent(before.noise_nrmse("fit"))
+    return (
+        f"NRMSE {percent(before.fit_nrmse)} as given, {percent(after.fit_nrmse)} {which} on the fit runs; "
+        f"{percent(before.validate_nrmse)} and {percent(after.validate_nrmse)} on the validation runs; noise alone {noise}"
+    )
+
+
+def _runner_up(validated: ValidatedDiagnosis) -> str:
+    """The next in probability."""
+    found = validated.diagnosis
+    others = {name: value for name, value in found.probabilities.items() if name != _winner(found)}
+    if not others:
+        return "none"
+    name = max(others, key=lambda one: others[one])
+    entry = next((one for one in ranking(validated) if one["effect"] == name), None)
+    error = f", NRMSE {percent(entry['error_after'])} on the fit runs" if entry else ""
+    return f"{_readable(name)}: probability {probability(others[name])}{error}"
+
+
+def _indistinguishable(found: Diagnosis) -> str:
+    pairs = found.indistinguishable
+    if not found.verdict:
+        return "; ".join(f"{_readable(a)} and {_readable(b)}" for a, b in pairs) or "no two effects"
+    others = sorted({a if b == found.verdict else b for a, b in pairs if found.verdict in (a, b)})
+    return listed_words([_readable(one) for one in others]) or "no other effect, in these runs"
+
+
+def _unseen(found: Diagnosis, names: list[str]) -> str:
+    """Effects whose detection limit is above their typical size: of these nothing is said."""
+    unseen = []
+    for one in found.ranking:
+        if one.hypothesis.parts or one.hypothesis.effect in names or one.hypothesis.effect not in REGISTRY:
+            continue
+        unseen += _limit_above_nominal(one)
+    return "; ".join(unseen) or "effects below their detection limits, all of which are under typical sizes"
+
+
+def _limit_above_nominal(one: Candidate) -> list[str]:
+    """The first parameter of an effect whose detection limit exceeds its nominal value, as text."""
+    effect = one.hypothesis.effect
+    declared = {quantity.name: quantity for quantity in quantities(REGISTRY[effect])}
+    for key, limit in one.detection_limits.items():
+        quantity = declared.get(key.split(".", 2)[2])
+        if quantity and quantity.name != "phase" and limit > abs(quantity.nominal):
+            (size,) = in_handy_unit(quantity.unit, limit)
+            return [f"{_readable(effect)} below {quantity.name.replace('_', ' ')} {size}"]
+    return []
+
+
+def _next_run(found: Diagnosis, proposals: Sequence[ProposedRun]) -> str:
+    if proposals:
+        return proposals[0].sentence()
+    return "none: nothing is missing" if found.kind == "adequate" else "none: another run would hardly change the verdict"
+
+
+def incomplete(validated: ValidatedDiagnosis) -> bool:
+    """Whether more than the verdict's effect may be missing."""
+    return bool(
+        validated.diagnosis.verdict
+        and reduced_chi_square(validated, validated.diagnosis.ranking[0]) >= VERDICT.incomplete_chi_square
+    )

@@ -1,0 +1,20 @@
+"""A card: the result of a page at a glance, with drawings, values and what to do next."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Card:
+    """`kind` stands above the title; `values` are (name, value, interval) and `facts` (name, text); `drawings` are SVG elements.
+
+    `command` is the next one to type, empty for none.
+    """
+
+    kind: str
+    title: str
+    texts: Sequence[str]
+    drawings: Sequence[str]
+    values: Sequence[tuple[str, str, str]]
+    facts: Sequence[tuple[str, str]]
+    command: str = ""
