@@ -4,8 +4,9 @@
   const NOTHING = -32768;
   const COLOURS = ["#0b4f8a", "#b3361b", "#1b7a45", "#7d3c98", "#9a6700", "#2a8c9c"];
   const MEASURED = "#e8893b", PLAIN = "#5c6b7a";
-  const CENTRE = 220, GAP = 58, TOP = 60, BOTTOM = 530, ROOM = 110, EYE = 180, SINK = 18; // of the shaft's picture, in its own units
-  const WIDE = 520, HIGH = 66, LEFT = 4, RIGHT = 516, UPPER = 16, LOWER = 62; // of a trace's picture
+  const CENTRE = 220, GAP = 68, TOP = 60, GROUND = 436, AXLE = 530, ROOM = 100, EYE = 185, SINK = 14; // of the shaft's picture, in its own units
+  const CLEAR = 6, FINE = 2; // least distance of the two sides, and length of the pieces in which the rope is led around the sheave
+  const WIDE = 520, HIGH = 84, LEFT = 52, RIGHT = 512, UPPER = 18, LOWER = 66; // of a trace's picture
 
   // -- data ---------------------------------------------------------------------------------------
   function unpack(table) {
@@ -44,6 +45,19 @@
   function largest(values) {
     let found = 0;
     for (const value of values) if (Math.abs(value) > found) found = Math.abs(value);
+    return found;
+  }
+
+  function extremes(values) {
+    let low = Infinity, high = -Infinity;
+    for (const value of values) if (value < low) low = value; else if (value > high) high = value;
+    return [low, high].filter(Number.isFinite);
+  }
+
+  // Round numbers between two, about `count` of them.
+  function ticks(low, high, count) {
+    const step = round125(((high - low) / count) * 1.5) || 1, found = [];
+    for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) found.push(+(k * step).toPrecision(12));
     return found;
   }
 
@@ -90,7 +104,7 @@
   class Shaft {
     constructor(svg, film) {
       this.film = film;
-      this.scale = (BOTTOM - TOP) / (film.height + film.pit); // per metre of height
+      this.scale = (GROUND - TOP) / film.height; // per metre of height above the bottom landing
       this.sheaveScale = SINK / (largest(film.axle.map((one) => one - film.axle[0])) || 1); // per metre of the sheave's rise
       this.views = { shape: film.sides, swing: film.sides.map((value, k) => value - film.rest[k]) };
       this.view("swing");
@@ -104,12 +118,32 @@
     // "swing": displacement relative to the static shape; "shape": relative to the vertical through the sheave's side.
     view(name) {
       this.shown = this.views[name];
-      this.lateral = ROOM / (largest(this.shown) || 1); // per metre of lateral displacement
+      const inward = -Math.min(0, ...extremes(this.shown)), outward = Math.max(0, ...extremes(this.shown));
+      this.lateral = Math.min(ROOM / (outward || 1e-9), (GAP - CLEAR) / (inward || 1e-9), 1e6); // per metre of lateral displacement
       this.stretch = 1;
     }
 
-    y(height) { return BOTTOM - (height + this.film.pit) * this.scale; }
+    // Below the bottom landing the picture is stretched down to the axle, so that the sheave has room below the car.
+    y(height, rise = 0, axle = AXLE) {
+      return height >= 0 ? GROUND - height * this.scale : GROUND - (height / (this.film.pit - rise)) * (axle - GROUND);
+    }
     x(side, outward) { return CENTRE + (side ? 1 : -1) * (GAP + this.lateral * this.stretch * outward); }
+
+    // A side of the rope through points (x, y): however much it is magnified, it passes the sheave and the other side outside.
+    side(side, points, axle) {
+      const fine = [points[0]];
+      for (let k = 1; k < points.length; k++) {
+        const [a, b] = [points[k - 1], points[k]], pieces = b[1] > axle - GAP - FINE ? Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / FINE) : 1;
+        for (let j = 1; j <= pieces; j++) fine.push([a[0] + ((b[0] - a[0]) * j) / pieces, a[1] + ((b[1] - a[1]) * j) / pieces]);
+      }
+      return path(fine.length, (k) => this.outside(side, ...fine[k], axle), (k) => fine[k][1]);
+    }
+
+    // The place nearest to x that lies on a side of the middle, outside of the sheave.
+    outside(side, x, y, axle) {
+      const out = side ? 1 : -1, rim = Math.sqrt(Math.max(0, GAP ** 2 - (y - axle) ** 2));
+      return CENTRE + out * Math.max(out * (x - CENTRE), rim, CLEAR / 2);
+    }
 
     _room(svg) {
       const step = round125(this.film.height / 4);
@@ -119,7 +153,7 @@
       }
       for (const side of [0, 1]) {
         const x = this.x(side, 0);
-        draw(svg, "line", { x1: x, x2: x, y1: TOP, y2: BOTTOM, stroke: "#aab4bf", "stroke-dasharray": "2 4" });
+        draw(svg, "line", { x1: x, x2: x, y1: TOP, y2: AXLE, stroke: "#aab4bf", "stroke-dasharray": "2 4" });
       }
       this.bar = draw(svg, "path", { stroke: "#5c6b7a", fill: "none", "stroke-width": 1.5 });
       this.barText = draw(svg, "text", { x: CENTRE, y: 642, class: "tick", "text-anchor": "middle" });
@@ -146,23 +180,25 @@
     show(at, time) {
       const { film } = this, ends = between(film.ends, 2, at), sides = between(this.shown, 2 * film.points, at);
       const rise = between(film.axle, 1, at)[0], n = film.points;
-      const axle = BOTTOM - this.sheaveScale * (rise - film.axle[0]);
+      const axle = AXLE - this.sheaveScale * (rise - film.axle[0]);
       this.wheel.setAttribute("transform", `translate(${CENTRE} ${axle}) rotate(${(between(film.angle, 1, at)[0] * 180) / Math.PI})`);
       for (const side of [0, 1]) {
-        const top = this.y(ends[side]), x = (k) => this.x(side, sides[side * n + k]), y = (k) => top + film.down[k] * (axle - top);
+        const low = rise - film.pit, height = (k) => ends[side] + film.down[k] * (low - ends[side]);
+        const points = Array.from({ length: n }, (_, k) => [this.x(side, sides[side * n + k]), this.y(height(k), rise, axle)]);
         const arc = `L${this.x(side, 0)} ${axle}` + (side ? "" : `a${GAP} ${GAP} 0 0 0 ${2 * GAP} 0`);
-        this.rope[side].setAttribute("d", path(n, x, y) + arc);
-        this.boxes[side].setAttribute("transform", `translate(${x(0)} ${top})`);
+        this.rope[side].setAttribute("d", this.side(side, points, axle) + arc);
+        this.boxes[side].setAttribute("transform", `translate(${points[0].join(" ")})`);
       }
-      this.sensors.forEach((one, k) => this._see(one, Number.isFinite(valueAt(film.traces[k], time)), ends, rise, sides));
+      this.sensors.forEach((one, k) => this._see(one, Number.isFinite(valueAt(film.traces[k], time)), ends, rise, sides, axle));
     }
 
     // The dot is on the rope as drawn, which in one of the views differs from the sensor's output.
-    _see(one, seen, ends, rise, sides) {
+    _see(one, seen, ends, rise, sides, axle) {
       const { film } = this, share = (ends[one.side] - one.height) / (ends[one.side] + film.pit - rise);
       const shape = { time: film.down, value: sides.subarray(one.side * film.points, (one.side + 1) * film.points) };
-      const x = seen ? this.x(one.side, valueAt(shape, share)) : CENTRE;
+      const y = this.y(one.height, rise, axle), x = seen ? this.outside(one.side, this.x(one.side, valueAt(shape, share)), y, axle) : CENTRE;
       one.dot.setAttribute("cx", x);
+      one.dot.setAttribute("cy", y);
       one.ray.setAttribute("x2", x);
       one.dot.style.display = one.ray.style.display = seen ? "" : "none";
     }
@@ -210,11 +246,11 @@
       const all = [...curve.value, ...(curve.measured ? curve.measured.value : [])].filter(Number.isFinite);
       this.low = Math.min(...all, Infinity); this.high = Math.max(...all, -Infinity); this.end = end;
       draw(svg, "rect", { x: LEFT, y: UPPER, width: RIGHT - LEFT, height: LOWER - UPPER, fill: "#f5f7f9" });
+      this._axes(svg, all.length);
       if (curve.measured) this._curve(svg, curve.measured, MEASURED);
       this._curve(svg, curve, colour);
       draw(svg, "text", { x: LEFT, y: 11, class: "name", fill: colour }, `${curve.name} [${curve.unit}]`);
       if (curve.measured) draw(svg, "text", { x: 180, y: 11, class: "name", fill: MEASURED }, "measured");
-      if (all.length) draw(svg, "text", { x: 260, y: 11, class: "tick" }, `${fixed(this.low)} to ${fixed(this.high)}`);
       this.text = draw(svg, "text", { x: RIGHT, y: 11, class: "name", fill: colour, "text-anchor": "end" });
       this.line = draw(svg, "line", { y1: UPPER, y2: LOWER, stroke: "#b3361b" });
       this._listen(svg, pick);
@@ -222,6 +258,17 @@
 
     x(time) { return LEFT + ((RIGHT - LEFT) * time) / this.end; }
     y(value) { return this.high > this.low ? LOWER - 3 - ((LOWER - UPPER - 6) * (value - this.low)) / (this.high - this.low) : (UPPER + LOWER) / 2; }
+
+    _axes(svg, seen) {
+      for (const time of ticks(0, this.end, 8)) {
+        draw(svg, "line", { x1: this.x(time), x2: this.x(time), y1: UPPER, y2: LOWER, stroke: "#dfe4ea" });
+        draw(svg, "text", { x: this.x(time), y: LOWER + 12, class: "tick", "text-anchor": "middle" }, time ? `${time}` : "0 s");
+      }
+      for (const value of !seen ? [] : this.high > this.low ? ticks(this.low, this.high, 3) : [this.low]) {
+        draw(svg, "line", { x1: LEFT, x2: RIGHT, y1: this.y(value), y2: this.y(value), stroke: "#dfe4ea" });
+        draw(svg, "text", { x: LEFT - 4, y: this.y(value) + 4, class: "tick", "text-anchor": "end" }, `${+value.toPrecision(6)}`.replace("-", "−"));
+      }
+    }
 
     _curve(svg, { time, value }, colour) {
       draw(svg, "path", { d: path(time.length, (k) => this.x(time[k]), (k) => this.y(value[k])), fill: "none", stroke: colour, "stroke-width": 1.2 });

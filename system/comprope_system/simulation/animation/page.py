@@ -16,7 +16,8 @@ from .traces import traces
 
 _LEAD = "One trip of {distance:.1f} m in a shaft of {height:g} m with a sheave mass of {mass:g} kg per rope."
 _CAPTION = (
-    "Left: the shaft; lateral motion is magnified, the distance of the two sides and the size of the sheave are not to scale."
+    "Left: the shaft; lateral motion is magnified, the distance of the two sides, the size of the sheave and the pit below the"
+    " bottom landing are not to scale. A side that the magnification would lead through the sheave is drawn on its rim."
     " The displacement is drawn relative to the static shape for the same car position, or relative to the vertical (dotted),"
     " where a straight, perfectly flexible rope would be. Right: the rope around the sheave, to scale; the vertical motion of"
     " the sheave is magnified. Plots: displacement at each sensor, positive outward on either side; a curve is interrupted "
@@ -37,7 +38,8 @@ def save_trip_page(
         Section("curves", "Plots", [Picture("curves", draw_trip(trip, measured))]),
         Section("model", "Model parameters", [_model(model)]),
     ]
-    save_page(path, f"Compensation rope: {name}", lead, sections)
+    source = "simulated with the measured motion of the car" if measured else "simulated"
+    save_page(path, f"Trip of a compensation rope, {source}: {name}", lead, sections)
 
 
 def _model(model: Base) -> Table:
