@@ -1,10 +1,11 @@
 """Minutes from a new environment to the FMUs of an improved model, as a new user gets there with raw logger files.
 
-    python benchmarks/first_campaign.py CAMPAIGN [--keep FOLDER]
+    python benchmarks/first_campaign.py CAMPAIGN [--keep FOLDER] [--pictures docs/pages]
 
 Builds the wheel, installs it into a new environment outside of the repository with an empty cache, writes the four runs of
 CAMPAIGN as loggers of three kinds write them, and calls `comprope new` (answering its questions with what CAMPAIGN states about
-each run), `check`, `improve --fmu`; the FMUs are then run by fmpy. --keep writes everything to FOLDER, for a look at it.
+each run), `check`, `improve --fmu`; the FMUs are then run by fmpy. --keep writes everything to FOLDER, for a look at it;
+--pictures draws the first run beside both models.
 """
 
 import argparse
@@ -21,6 +22,7 @@ from datetime import datetime, timedelta
 from pathlib import Path
 
 import pandas as pd
+from PIL import Image
 
 ROOT = Path(__file__).parent.parent
 NAMES = {
@@ -28,6 +30,7 @@ NAMES = {
     "sheave_dx": "Sheave travel [mm]", "sheave_w": "Sheave speed [rad/s]",
 }  # fmt: skip
 START = datetime(2026, 11, 2, 9, 12, 1, 123000)  # of the record with dates
+PIXELS, COLOURS = (1300, 900), 64  # of a picture for the documentation
 FMU_RUN = """
 import sys
 import fmpy
@@ -137,18 +140,31 @@ def journey(campaign: Path, folder: Path) -> None:
     print(steps.table())
 
 
+def draw(folder: Path, pictures: Path) -> None:
+    """Plots of the first run beside the model as it was and the improved one, as small PNG files."""
+    command, campaign = folder / "environment" / "bin" / "comprope", folder / "tower"
+    stated = tomllib.loads((campaign / "campaign.toml").read_text(encoding="utf-8"))
+    run = campaign / stated["runs"][0]["file"]
+    for name, path in (("before", campaign / stated["model"]), ("after", folder / "better.toml")):
+        plot = folder / f"{name}.png"
+        subprocess.run([command, "simulate", path, "--car", run, "--plot", plot], cwd=folder, check=True, capture_output=True)
+        small = Image.open(plot).convert("RGB").resize(PIXELS, Image.Resampling.LANCZOS)
+        small.quantize(COLOURS, method=Image.Quantize.FASTOCTREE).save(pictures / f"first_{name}.png", optimize=True)
+
+
 def main() -> None:
     """Run in a temporary folder, or in one that is kept."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("campaign", type=Path)
     parser.add_argument("--keep", type=Path, metavar="FOLDER")
+    parser.add_argument("--pictures", type=Path, metavar="FOLDER")
     options = parser.parse_args()
-    if options.keep:
-        options.keep.mkdir(parents=True)
-        journey(options.campaign.resolve(), options.keep.resolve())
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        journey(options.campaign.resolve(), Path(folder))
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = options.keep.resolve() if options.keep else Path(temporary)
+        folder.mkdir(parents=True, exist_ok=not options.keep)
+        journey(options.campaign.resolve(), folder)
+        if options.pictures:
+            draw(folder, options.pictures)
 
 
 if __name__ == "__main__":

@@ -21,10 +21,12 @@ if TYPE_CHECKING:
 def progress_display() -> "Iterator[Report]":
     """Progress bar on a terminal: current task, completed fraction and elapsed time; otherwise nothing."""
     console = Console(file=sys.stderr)
+    if not console.is_terminal:
+        yield lambda text, done, total: None
+        return
     parts = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     # An FMU's messages on standard error are captured while it is called, so the display leaves the streams alone.
     display = Progress(*parts, console=console, transient=True, redirect_stdout=False, redirect_stderr=False)
-    display.disable = not console.is_terminal
     with display:
         task = display.add_task("starting", total=None)
         yield lambda text, done, total: display.update(task, description=text, completed=done, total=total or None)
