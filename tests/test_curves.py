@@ -15,6 +15,7 @@ from comprope_system.identification.comparison.largest_error import largest_erro
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.prediction.replay import relative_to_rest
 from comprope_system.identification.reporting.comparison_page import before_and_after
+from comprope_system.identification.reporting.heat_maps import error_map
 from comprope_system.identification.reporting.run_curves import run_curves
 from comprope_system.identification.result.comparison import ComparisonResult
 from comprope_system.parallel.executors import threads
@@ -195,6 +196,16 @@ def test_levels_of_colour_begin_at_their_limits():
     assert [level_of(one) for one in (0.0, 0.049, *LEVELS, 7.0, float("nan"))] == [0, 0, 1, 2, 3, 4, 5, 5, 0]
 
 
+def test_errors_that_noise_explains_are_not_coloured(comparison):
+    run = comparison.runs[0]
+    one = run.channels[0]
+    loud = replace(one, noise=10.0 * one.rmse)
+    found = error_map(replace(comparison, runs=(replace(run, channels=(one, loud)),)), "curves")
+    _, seen, explained = ([cell for cell in row if isinstance(cell, HeatCell)] for row in found.heat_rows)
+    assert [cell.text for cell in seen] == [cell.text for cell in explained] and len(seen) == 6
+    assert seen[0].level == level_of(one.nrmse) > 0 and {cell.level for cell in explained} == {0}
+
+
 # -- page ----------------------------------------------------------------------------------------------
 
 
@@ -239,7 +250,7 @@ def colours(dark: bool) -> dict[str, np.ndarray]:
     light, dark_part = style.split("@media screen and (prefers-color-scheme: dark)", 1)
     found = dict(re.findall(r"--([\w-]+): (#\w+);", light))
     if dark:
-        found |= dict(re.findall(r"--([\w-]+): (#\w+);", dark_part))
+        found |= dict(re.findall(r"--([\w-]+): (#\w+);", dark_part.split("}")[0]))
     long = {name: one[1:] if len(one) == 7 else "".join(2 * digit for digit in one[1:]) for name, one in found.items()}
     return {name: np.array([int(two, 16) for two in re.findall("..", one)]) / 255.0 for name, one in long.items()}
 

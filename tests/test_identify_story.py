@@ -19,7 +19,7 @@ from comprope_system import cli
 from comprope_system.identification.comparison.compare import compare
 from comprope_system.identification.comparison.error_metrics import ORDERS
 from comprope_system.identification.data.campaign import load_campaign
-from comprope_system.identification.diagnosis.experiment_design import best_two_fits
+from comprope_system.identification.diagnosis.experiment_design import ProposedRun, best_two_fits
 from comprope_system.identification.diagnosis.held_out_validation import to_json, validate
 from comprope_system.identification.estimation.parameter_estimates import effect_estimates, standard_error_scale
 from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect
@@ -260,6 +260,17 @@ def test_the_card_of_a_verdict_says_what_the_result_says(validated):
     assert f"{100.0 * validated.best.fit_nrmse:.3g} %" in facts["error"]
     assert facts["next run to measure"].startswith("none") and "sheave eccentricity" not in facts["could not have been seen"]
     assert card.command.startswith("comprope ") and str(validated.diagnosis.campaign.folder) in card.command
+
+
+def test_the_card_of_an_unknown_effect_names_the_next_run(validated):
+    probabilities = {name: 0.01 * p for name, p in validated.diagnosis.probabilities.items()} | {"unknown": 0.9, "air_drag": 0.08}
+    unknown = replace(validated.diagnosis, verdict=None, kind="unknown_effect", probabilities=probabilities)
+    card = verdict_card(replace(validated, diagnosis=unknown), (ProposedRun(1.5, 0.0, 8.0, 1.0, 7.0),))
+    facts = dict(card.facts)
+    assert (card.kind, card.values) == ("Unknown effect", []) and card.title.startswith("None of the known effects")
+    assert facts["probability"] == "0.90" and facts["runner-up"].startswith("air drag: probability 0.08")
+    assert facts["next run to measure"].startswith("up from 0 m to 8 m at 1 m/s with 1.5 times")
+    assert card.command == f"comprope diagnose {unknown.campaign.folder} --report diagnosis.html"
 
 
 def test_an_effect_with_its_shape_freed_is_one_step(monkeypatch):

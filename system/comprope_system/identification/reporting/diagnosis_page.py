@@ -31,7 +31,8 @@ def save_diagnosis(
     """Write the page of a diagnosis, completely or not at all."""
     found, fit = validated.diagnosis, fit_name(validated)
     first, *rest = sentences.verdict_sentences(validated)
-    certain = not found.indistinguishable and max(found.probabilities.values()) > EXPERIMENTS.conclusive_probability
+    alike = any(found.verdict in pair for pair in found.indistinguishable)
+    certain = not alike and max(found.probabilities.values()) > EXPERIMENTS.conclusive_probability
     sections = [
         Section("verdict", "Verdict", [verdict_card(validated, proposals), *rest]),
         data_quality_section(validated.remarks),

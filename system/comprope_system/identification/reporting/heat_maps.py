@@ -24,25 +24,36 @@ def error_map(comparison: Comparison, curves: str, caption: str = "") -> HeatMap
     for k, run in enumerate(comparison.runs):
         rows.append([f"{run.file} ({run.role}): NRMSE {percent(run.nrmse)}"])
         rows += (_error_row(k, run, j, curves) for j in range(len(run.channels)))
-    return HeatMap(head, rows, caption=f"{caption}NRMSE by phase of the trip; a click shows the curves. {level_sentence()}")
+    return HeatMap(
+        head,
+        rows,
+        caption=f"{caption}NRMSE by phase of the trip; a click shows the curves. {level_sentence()} "
+        "What noise explains is not coloured.",
+    )
 
 
 def _error_row(k: int, run: RunComparison, j: int, curves: str) -> list[str | HeatCell]:
     one, shown = run.channels[j], channels_shown(run)
     target = Target(curves, k, shown.index(j)) if j in shown else None
     scale, unit = one.channel.scale, one.channel.unit
-    whole = HeatCell(percent(one.nrmse), level_of(one.nrmse), target=target)
+    variation = one.rmse / one.nrmse if one.nrmse else float("nan")
+    noise = one.noise / variation * COMPARISON.adequate**0.5  # the largest error that noise explains
+    whole = HeatCell(percent(one.nrmse), _level_beyond(noise, one.nrmse), target=target)
     row: list[str | HeatCell] = [
         one.column, whole, f"{number(one.rmse / scale)} {unit}", number(one.reduced_chi_square),
     ]  # fmt: skip
-    variation = one.rmse / one.nrmse if one.nrmse else float("nan")
     for name in PHASES:
         share, span = one.by_phase.get(name, float("nan")), name.replace("_", " ")
         title = f"{run.file}, {one.column}, {span}: RMS error {number(share * variation / scale)} {unit}"
         known = bool(np.isfinite(share))
         there = Target(curves, k, target.panel, span) if target and known else None
-        row.append(HeatCell(percent(share), level_of(share), title if known else "", there))
+        row.append(HeatCell(percent(share), _level_beyond(noise, share), title if known else "", there))
     return row
+
+
+def _level_beyond(noise: float, share: float) -> int:
+    """The level of a share, none where noise of this share explains it."""
+    return level_of(share) if share > noise else 0
 
 
 def position_map(comparison: Comparison) -> HeatMap:

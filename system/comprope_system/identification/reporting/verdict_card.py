@@ -48,7 +48,9 @@ def next_command(validated: ValidatedDiagnosis) -> str:
     folder = quote(str(found.campaign.folder))
     if found.kind == "adequate":
         return ""
-    if found.kind == "unknown_effect" or incomplete(validated):
+    if found.kind == "unknown_effect":
+        return f"{program} diagnose {folder} --report diagnosis.html"
+    if incomplete(validated):
         return f"{program} improve {folder} --out MODEL.toml"
     return f"{program} add {folder} {quote(full_name(found.ranking[0].hypothesis))} --out MODEL.toml"
 
@@ -133,20 +135,21 @@ def _unseen(found: Diagnosis, names: list[str]) -> str:
 
 
 def _limit_above_nominal(one: Candidate) -> list[str]:
-    """The first parameter of an effect whose detection limit exceeds its nominal value, as text."""
+    """The first detection limit of an effect, as text, if none of its parameters would be seen at its nominal value."""
     effect = one.hypothesis.effect
     declared = {quantity.name: quantity for quantity in quantities(REGISTRY[effect])}
-    for key, limit in one.detection_limits.items():
-        quantity = declared.get(key.split(".", 2)[2])
-        if quantity and quantity.name != "phase" and limit > abs(quantity.nominal):
-            (size,) = in_handy_unit(quantity.unit, limit)
-            return [f"{_readable(effect)} below {quantity.name.replace('_', ' ')} {size}"]
-    return []
+    limits = {key.split(".", 2)[2]: limit for key, limit in one.detection_limits.items()}
+    sizes = {declared[name]: limit for name, limit in limits.items() if name in declared and name != "phase"}
+    if not sizes or any(limit <= abs(quantity.nominal) for quantity, limit in sizes.items()):
+        return []
+    quantity, limit = next(iter(sizes.items()))
+    (size,) = in_handy_unit(quantity.unit, limit)
+    return [f"{_readable(effect)} below {quantity.name.replace('_', ' ')} {size}"]
 
 
 def _next_run(found: Diagnosis, proposals: Sequence[ProposedRun]) -> str:
     if proposals:
-        return proposals[0].sentence()
+        return f"{proposals[0].sentence()}; then diagnose again with it"
     return "none: nothing is missing" if found.kind == "adequate" else "none: another run would hardly change the verdict"
 
 
