@@ -3,12 +3,15 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from comprope.rope.runtime.parameter_vector import DECLARED
+
 from ...report.page import Table
 from ..comparison.compare import Comparison
 from ..data.trip_phases import PHASES
 from ..diagnosis.diagnose import Diagnosis
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, parameter_shifts, ranking
 from ..estimation.parameter_estimates import Estimate, unit_of
+from ..hypotheses.plant_parameters import CLOCK
 from ..model_updating.backward_elimination import EffectRemoval
 from ..model_updating.stepwise_selection import StepwiseSelection
 from ..residuals.input_estimation import InputEstimation
@@ -92,16 +95,27 @@ def force_table(force: InputEstimation, most: int = 100) -> Table:
 
 def plant_table(found: Diagnosis) -> Table:
     """Plant parameters in the model file and as fitted, and their deviations from the prior in prior standard deviations."""
-    rows = [(key, number(one.before), one.formatted(), f"{shift:+.1f}") for key, one, shift in parameter_shifts(found)]
-    return Table(("parameter", "model file", "fitted", "deviation from prior, in prior standard deviations"), rows)
+    rows = [
+        (key, number(one.before), one.formatted(), unit_of_key(key), f"{shift:+.1f}")
+        for key, one, shift in parameter_shifts(found)
+    ]
+    return Table(("parameter", "model file", "fitted", "unit", "deviation from prior, in prior standard deviations"), rows)
 
 
 def estimate_table(values: Mapping[str, Estimate]) -> Table:
     """Estimates with their 95 % confidence intervals."""
     rows = [
-        (key, one.formatted(), f"{one.low:.4g}", f"{one.high:.4g}") for key, one in values.items() if one.standard_error > 0.0
+        (key, one.formatted(), f"{one.low:.4g}", f"{one.high:.4g}", unit_of_key(key))
+        for key, one in values.items()
+        if one.standard_error > 0.0
     ]
-    return Table(("parameter", "estimate ± standard error", "95 %: from", "to"), rows)
+    return Table(("parameter", "estimate ± standard error", "95 %: from", "to", "unit"), rows)
+
+
+def unit_of_key(key: str) -> str:
+    """The SI unit of a model parameter, empty for a pure number."""
+    unit = "s" if key == CLOCK else DECLARED[key].unit if key in DECLARED else ""
+    return "" if unit == "1" else unit.replace(".", "·")
 
 
 def stage_table(stages: Mapping[str, Comparison]) -> Table:

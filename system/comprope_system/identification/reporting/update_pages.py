@@ -8,7 +8,7 @@ from ..model_updating.stepwise_selection import StepwiseSelection
 from . import figures, sentences, tables
 from .comparison_page import before_and_after, order_section
 
-ESTIMATES = "In SI units, with one standard error and a 95 % confidence interval: the effect, then the plant parameters."
+ESTIMATES = "With one standard error and a 95 % confidence interval: the effect, then the plant parameters."
 
 
 def save_updated_model(path: Path, updated: UpdatedModel) -> None:

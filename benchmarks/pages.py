@@ -1,0 +1,95 @@
+"""Size, time to open, and look of the pages; makes docs/trip.png and the pictures of docs/pages anew.
+
+    python benchmarks/pages.py CAMPAIGN EFFECT [--only trip compare diagnose add design tune] [--out docs]
+
+CAMPAIGN is a folder with campaign.toml, EFFECT the one that `add` adds. Needs Chromium. The time to open is that from the start
+of the navigation to the end of the load event, when all curves that are switched on are drawn; the least of three.
+"""
+
+import argparse
+import contextlib
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from PIL import Image
+
+import comprope_system
+from comprope_system import DesignOptions, TuningOptions
+
+DOCS = Path(__file__).parent.parent / "docs"
+WIDTH, HEIGHT, COLOURS = 1000, 1500, 96  # of a picture in pixels, and of its palette
+TIMED = """<script>
+addEventListener("load", () => setTimeout(() => { document.title = `opened ${performance.now()}`; }));
+</script></body>"""
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), "chromium")
+
+
+def browser(page: Path, *options: str) -> str:
+    """What Chromium prints for a page."""
+    words = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", f"--window-size={WIDTH},{HEIGHT}"]
+    return subprocess.run([*words, *options, page.as_uri()], capture_output=True, text=True, timeout=120, check=True).stdout
+
+
+def time_to_open(page: Path) -> float:
+    """Seconds from the start of the navigation to the end of the load event."""
+    timed = page.with_name(f"{page.stem}_timed.html")
+    timed.write_text(page.read_text(encoding="utf-8").replace("</body>", TIMED), encoding="utf-8")
+    found = [re.search(r"<title>opened ([\d.]+)", browser(timed, "--timeout=5000", "--dump-dom")) for _ in range(3)]
+    return min(float(one[1]) for one in found if one) / 1e3
+
+
+def picture(page: Path, file: Path) -> None:
+    """The first rows of a page as a PNG file of few colours."""
+    shot = page.with_suffix(".png")
+    browser(page, "--virtual-time-budget=4000", f"--screenshot={shot}")
+    with Image.open(shot) as image:
+        image.convert("RGB").quantize(COLOURS).save(file, optimize=True)
+
+
+def report(name: str, page: Path, out: Path) -> None:
+    """Print a row of the table and write the picture."""
+    picture(page, out / "pages" / f"{name}.png")
+    print(f"| {name} | {page.stat().st_size / 1e6:.2f} MB | {time_to_open(page):.2f} s |", flush=True)
+
+
+def makers(campaign: str, effect: str, out: Path) -> dict[str, Callable[[Path], None]]:
+    """What writes each page."""
+
+    def trip(page: Path) -> None:
+        result = comprope_system.simulate("tower50")
+        result.save_html(page)
+        result.save_plot(out / "trip.png")
+
+    return {
+        "trip": trip,
+        "compare": lambda page: comprope_system.compare(campaign).save_html(page),
+        "diagnose": lambda page: comprope_system.diagnose(campaign).save_html(page),
+        "add": lambda page: comprope_system.add(campaign, effect).save_html(page),
+        "design": lambda page: comprope_system.design("building200", DesignOptions(floors=9)).save_html(page),
+        "tune": lambda page: comprope_system.tune("building200", TuningOptions(trips=("0:22",))).save_html(page),
+    }
+
+
+def main() -> None:
+    """Make the pages."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("campaign")
+    parser.add_argument("effect")
+    parser.add_argument("--only", nargs="+")
+    parser.add_argument("--out", type=Path, default=DOCS)
+    given = parser.parse_args()
+    campaign, out = Path(given.campaign).resolve(), given.out.resolve()
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(campaign.parent):  # pages name the campaign as it is given
+        for name, make in makers(campaign.name, given.effect, out).items():
+            if not given.only or name in given.only:
+                page = Path(folder) / f"{name}.html"
+                make(page)
+                report(name, page, out)
+
+
+if __name__ == "__main__":
+    main()
