@@ -66,6 +66,7 @@ def test_raw_files_become_a_campaign_that_can_be_read(tmp_path, files, capsys):
     assert run.trip.position(END) == pytest.approx(6.0, abs=0.01)
     assert np.corrcoef(run.values["Drehzahl [U/min]"], run.trip.velocity(run.time))[0, 1] > 0.99
     told = json.loads((tmp_path / "new.json").read_text())
+    assert any("the sheave of the model, 120 kg, is taken in every run" in one for one in told["remarks"])
     assert {key: told["columns"][-1][key] for key in ("column", "quantity")} == {"column": "Temperatur [°C]", "quantity": None}
 
 

@@ -36,7 +36,10 @@ class NewCampaign(Result):
         parts = [[self.headline()], ["Columns:", *(f"  {one}" for one in lines)], ["Runs:", *(f"  {one}" for one in runs)]]
         if self.remarks:
             parts.append(["Remarks:", *(f"  {one}" for one in self.remarks)])
-        return "\n\n".join("\n".join(lines) for lines in parts) + "\n\n" + self.check.summary()
+        parts.append([self.check.summary().rstrip()])
+        if not self.check.problems:
+            parts.append([f"Next: read {self.path}, then comprope compare {self.path.parent}"])
+        return "\n\n".join("\n".join(lines) for lines in parts)
 
     def to_json(self) -> dict[str, Any]:
         """The columns with their roles, the runs, and the check."""

@@ -21,6 +21,7 @@ from .survey import SurveyedRun, noise, roles, survey
 
 DEFAULT_MODEL = "tower50"
 HELD_OUT = 2  # runs from which on one is held out
+SHEAVE_OF_RUN = 'where it was another, write set = { "sheave.mass" = ..., "sheave.inertia" = ... } in its run'
 SHORT_REST = 1.0  # s at rest before a trip that references need
 
 
@@ -58,6 +59,8 @@ def new(
         temporary.write_text(campaign_text(folder.resolve().name, name, _tables(surveyed), channels, runs), "utf-8")
     remarks += [f"{run.file}: {run.rest:.2g} s at rest before the trip; references at rest need {SHORT_REST:g} s"
                 for run in surveyed if run.trip is not None and run.rest < SHORT_REST]  # fmt: skip
+    if not ask:
+        remarks.append(f"the sheave of the model, {loaded.sheave.mass:g} kg, is taken in every run; {SHEAVE_OF_RUN}")
     return NewCampaign(path, surveyed[0].car.column, found, by_file, tuple(remarks), check(path))
 
 
