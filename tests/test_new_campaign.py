@@ -102,6 +102,28 @@ def test_a_column_that_was_guessed_is_asked_for_and_others_are_not(tmp_path, fil
     assert result.check.problems == ()
 
 
+def test_files_that_name_their_columns_otherwise_are_one_campaign(tmp_path, files):
+    table = pd.read_csv(files[0])
+    names = {"Laser GG unten [mm]": "cw_low", "Laser Kabine [mm]": "Rope at the car (mm)", "Scheibe Weg (mm)": "sheave_dx"}
+    table.rename(columns=names).to_csv(files[0], index=False)
+    result = comprope_system.new(tmp_path / "campaign", files, model=MODEL)
+    assert result.check.problems == ()
+    written = read_campaign_file(tmp_path / "campaign" / "campaign.toml")
+    assert sorted(one.column for one in written.channels if one.sensor) == ["Laser GG unten [mm]", "Rope at the car (mm)"]
+    up, down = written.runs
+    assert up.columns == {"Laser GG unten [mm]": "cw_low", "Scheibe Weg (mm)": "sheave_dx"}
+    assert down.columns == {"Rope at the car (mm)": "Laser Kabine [mm]"}
+    other = {one["column"]: one["same_as"] for one in result.to_json()["columns"]}
+    assert other["Laser Kabine [mm]"] == "Rope at the car (mm)" and other["Scheibe Weg (mm)"] is None
+
+
+def test_a_second_column_in_the_same_file_is_not_taken_for_the_first(tmp_path, files):
+    table = pd.read_csv(files[0])
+    table.assign(cw_low=table["Laser GG unten [mm]"]).to_csv(files[0], index=False)
+    found = comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL).columns["cw_low"]
+    assert (found.quantity, found.same_as, found.certainty) == (None, None, "guess")
+
+
 def test_an_answer_that_is_not_accepted_is_asked_for_again(tmp_path, files):
     answers, asked = iter(["heavy", "-3", "120"]), []
 

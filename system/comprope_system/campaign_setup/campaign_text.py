@@ -9,9 +9,9 @@ from .column_roles import Role
 
 def campaign_text(
     name: str, model: str, tables: Mapping[str, Mapping[str, object]], channels: Sequence[tuple[str, Role, float | None]],
-    runs: Sequence[tuple[str, str, Mapping[str, object]]],
+    runs: Sequence[tuple[str, str, Mapping[str, str], Mapping[str, object]]],
 ) -> str:  # fmt: skip
-    """The file: name and model, the tables `[file]` and `[car]`, each channel with its noise, each run with its role."""
+    """The file: name and model, the tables `[file]` and `[car]`, channels with noise, runs with role, names and changes."""
     lines = ["# Written by `comprope new`. Check what each column was taken for; docs: first_campaign.md", ""]
     lines += [f"name = {_value(name)}", f"model = {_value(model)}", ""]
     for title, table in tables.items():
@@ -23,10 +23,11 @@ def campaign_text(
         reference = "absolute" if role.quantity == "sheave_angular_velocity" else "rest"
         lines += [f"unit = {_value(role.unit)}", *(["sign = -1"] if role.sign < 0 else []), f"reference = {_value(reference)}"]
         lines += [*([f"noise = {noise:g}"] if noise else []), ""]
-    for file, role_of_run, changes in runs:
+    for file, role_of_run, columns, changes in runs:
         lines += ["[[runs]]", f"file = {_value(file)}", f"role = {_value(role_of_run)}"]
-        if changes:
-            lines.append(f"set = {{ {', '.join(f'{_value(key)} = {_value(value)}' for key, value in changes.items())} }}")
+        for key, table in (("columns", columns), ("set", changes)):
+            if table:
+                lines.append(f"{key} = {{ {', '.join(f'{_value(name)} = {_value(value)}' for name, value in table.items())} }}")
         lines.append("")
     return "\n".join(lines).rstrip() + "\n"
 

@@ -34,7 +34,10 @@ MILLIMETRES = 0.5  # largest displacement that is rather metres than millimetres
 
 @dataclass(frozen=True)
 class Role:
-    """What a column is taken for: quantity, sensor, unit and sign of a channel, how surely, and why; quantity None: left out."""
+    """What a column is taken for: quantity, sensor, unit and sign of a channel, how surely, and why.
+
+    `quantity` None is no channel of its own: left out, or what other files name `same_as`.
+    """
 
     quantity: str | None
     unit: str = ""
@@ -42,12 +45,13 @@ class Role:
     sign: int = 1
     certainty: str = GUESS
     why: str = ""
+    same_as: str | None = None
 
     @property
     def shown(self) -> str:
         """The role in words."""
         if self.quantity is None:
-            return "left out"
+            return f"the same as {self.same_as} in other files" if self.same_as else "left out"
         return f"{self.quantity}{f' at {self.sensor}' if self.sensor else ''} [{self.unit}]{', sign -1' if self.sign < 0 else ''}"
 
 

@@ -45,7 +45,7 @@ class NewCampaign(Result):
         """The columns with their roles, the runs, and the check."""
         columns = [
             {"column": name, "quantity": one.quantity, "sensor": one.sensor, "unit": one.unit or None, "sign": one.sign,
-             "certainty": one.certainty, "why": one.why}
+             "same_as": one.same_as, "certainty": one.certainty, "why": one.why}
             for name, one in self.columns.items()
         ]  # fmt: skip
         runs = [{"file": file, "role": role} for file, role in self.roles.items()]

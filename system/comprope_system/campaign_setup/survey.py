@@ -12,7 +12,6 @@ from comprope.rope.effects import RopeModel
 
 from ..measurements.campaign_file import MotionColumn, Reading, RunSpec
 from ..measurements.columns.column_names import COUNTERWEIGHT_NAMES, car_column, is_time_name, plain_name
-from ..measurements.columns.readings import written_unit
 from ..measurements.columns.signal_faults import CHANNEL_RULES
 from ..measurements.files.file_format import FileFormat
 from ..measurements.files.raw_table import RawColumn, printable
@@ -20,8 +19,6 @@ from ..measurements.motion.recover import recover_trip
 from ..measurements.motion.trip import Trip
 from ..measurements.motion_column import MotionSignal, read_motion
 from ..measurements.run_files import RunFiles, Samples
-from ..measurements.units import is_unit, unit_named
-from .column_roles import Evidence, Role, role_of
 
 Floats = NDArray[np.float64]
 
@@ -135,45 +132,6 @@ def _car_by_values(files: RunFiles, file: str, height: float) -> str:
         path = files.folder / file
         raise InputError(f"{path}: which column is the position of the car? Rename it car_position; it may be: {columns}")
     return found[0]
-
-
-def roles(runs: Sequence[SurveyedRun], model: RopeModel) -> dict[str, Role]:
-    """The role of each column by its name in the first file that has it; columns that differ in separators only are the same."""
-    names: dict[str, str] = {}
-    for run in runs:
-        for name in run.samples:
-            names.setdefault(plain_name(name), name)
-    found = {name: role_of(name, _evidence(runs, plain, model), model.sensors) for plain, name in names.items()}
-    return _one_each(found)
-
-
-def _evidence(runs: Sequence[SurveyedRun], plain: str, model: RopeModel) -> list[Evidence]:
-    found = []
-    for run in runs:
-        for name, samples in run.samples.items():
-            if plain_name(name) == plain:
-                written = written_unit(run.columns[name])
-                rolling = run.speed(samples.time) / model.sheave.radius
-                unit = (unit_named(written) or (written if is_unit(written) else None)) if written else None
-                found.append(Evidence(samples.values, rolling, unit))
-    return found
-
-
-def _one_each(found: dict[str, Role]) -> dict[str, Role]:
-    """The roles with one column for each sensor and each quantity of the sheave: the surest; the others are left out."""
-    order = {"sure": 0, "likely": 1, "guess": 2}
-    taken: dict[tuple[str, str | None], str] = {}
-    result = dict(found)
-    for name, role in sorted(found.items(), key=lambda item: order[item[1].certainty]):
-        if role.quantity is None:
-            continue
-        if role.quantity == "lateral_displacement" and role.sensor is None:
-            result[name] = Role(None, certainty="guess", why="a lateral displacement, but at which sensor of the model?")
-        elif (place := (role.quantity, role.sensor)) in taken:
-            result[name] = Role(None, certainty="guess", why=f"{role.shown}, as {taken[place]}")
-        else:
-            taken[place] = name
-    return result
 
 
 def noise(runs: Sequence[SurveyedRun], name: str) -> float | None:

@@ -15,9 +15,10 @@ from ..measurements.files.raw_table import printable
 from ..measurements.files.reader import require_regular_file
 from ..presets import model_path
 from .campaign_text import campaign_text
+from .column_matching import renamed, roles
 from .questions import Ask, asked_changes, asked_role
 from .result import NewCampaign
-from .survey import SurveyedRun, noise, roles, survey
+from .survey import SurveyedRun, noise, survey
 
 DEFAULT_MODEL = "tower50"
 HELD_OUT = 2  # runs from which on one is held out
@@ -54,7 +55,8 @@ def new(
         raise InputError(f"{folder}: no column is a channel that is known; describe them in campaign.toml: {columns}")
     held_out = _held_out(surveyed)
     by_file = {run.file: "validate" if run.file == held_out else "fit" for run in surveyed}
-    runs = [(run.file, by_file[run.file], asked_changes(run.file, loaded, ask) if ask else {}) for run in surveyed]
+    changes = {run.file: asked_changes(run.file, loaded, ask) if ask else {} for run in surveyed}
+    runs = [(run.file, by_file[run.file], renamed(run, found), changes[run.file]) for run in surveyed]
     with atomic_write(path) as temporary:
         temporary.write_text(campaign_text(folder.resolve().name, name, _tables(surveyed), channels, runs), "utf-8")
     remarks += [f"{run.file}: {run.rest:.2g} s at rest before the trip; references at rest need {SHORT_REST:g} s"
