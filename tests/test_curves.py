@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import comprope_system
 from comprope_system.identification.comparison.compare import compare, compared
 from comprope_system.identification.comparison.largest_error import largest_error
 from comprope_system.identification.data.campaign import load_campaign
@@ -309,6 +310,12 @@ told.panned = [+group.dataset.from, +group.dataset.to];
 press("cw_low"); press("residual");
 told.panels = [...group.querySelectorAll(".panel")].map((one) => !one.hidden);
 told.residuals = [...group.querySelectorAll(".residual")].filter((one) => !one.hidden).length;
+const width = () => group.querySelector(".uplot").clientWidth;
+const before = width();
+dispatchEvent(new Event("beforeprint"));
+told.printed = width();
+dispatchEvent(new Event("afterprint"));
+told.restored = width() === before;
 told.wide = document.documentElement.scrollWidth;
 """
 
@@ -342,6 +349,7 @@ def test_a_browser_draws_zooms_and_reads_the_curves(comparison, page, width):
     assert told["panned"] == pytest.approx([one + 0.2 * span for one in told["dragged"]], abs=1e-6)
     assert told["panels"] == [one.column != "cw_low" for one in run.channels] and told["residuals"] == 0
     assert told["wide"] <= width
+    assert told["printed"] <= 182.0 / 25.4 * 96.0 and told["restored"]  # A4 less margins of 14 mm, at 96 pixels in an inch
 
 
 @needs_browser
@@ -356,3 +364,23 @@ def test_a_browser_shows_awkward_names_as_they_are(tmp_path):
     )
     assert told["names"] == [f"{name} [mm]" for name in AWKWARD] and told["bold"] == 0
     assert told["view"] == pytest.approx([0.0, 23.0])
+
+
+ODD = "<b>$x_1$ y (mm) & 'z'"
+
+
+@needs_browser
+def test_a_campaign_with_a_column_of_markup_is_compared_and_shown(tmp_path):
+    folder = virtual_elevator.campaign(tmp_path / "odd", {})
+    described = (folder / "campaign.toml").read_text().replace('column = "car_low"', f'column = "{ODD}"')
+    (folder / "campaign.toml").write_text(described)
+    for path in folder.glob("*.csv"):
+        head, rest = path.read_text().split("\n", 1)
+        path.write_text(head.replace("car_low", ODD) + "\n" + rest)
+    result = comprope_system.compare(folder)
+    result.save_html(tmp_path / "odd.html")
+    assert "<b>" not in (tmp_path / "odd.html").read_text("utf-8")
+    script = """told.names = [...document.querySelectorAll(".curves .panel b")].map((one) => one.textContent);
+    told.cells = [...document.querySelectorAll(".heat td:first-child")].map((one) => one.textContent);"""
+    told = played(tmp_path / "odd.html", script)
+    assert f"{ODD} [mm]" in told["names"] and ODD in told["cells"]

@@ -38,6 +38,10 @@ class Table:
         cells = [row[column] for row in self.rows]
         return bool(cells) and all(NUMBER.fullmatch(cell) for cell in cells if cell not in ("", "–"))
 
+    def told(self, column: int) -> bool:
+        """Whether a column has anything in it; a page leaves out those that have not."""
+        return not self.rows or any(row[column] for row in self.rows)
+
     def mark(self, cell: str) -> str:
         """The CSS class of a cell that is a mark such as "yes" or "fail"; empty for any other."""
         return MARKS.get(cell, "")

@@ -54,7 +54,9 @@ def order_section(comparison: Comparison, title: str, fit: str, folded: bool = F
         f"Residual of {fit}. Amplitude over the order: periods per revolution of the sheave. A line at order 1 in every run is "
         "caused by the sheave's rotation."
     )
-    return Section("orders", title, [text, order_curves(comparison)], folded=folded)
+    curves = order_curves(comparison)
+    known = bool(curves.groups[0].panels)
+    return Section("orders", title, [text, curves if known else "In no run does the sheave turn often enough."], folded=folded)
 
 
 def before_and_after(before: Comparison, after: Comparison, fit: str) -> Section:
