@@ -107,7 +107,7 @@ def test_the_law_is_the_sampled_speed_control() -> None:
     for error in errors:
         force, integral = controller.force(integral, TrajectoryPoint(0.0, error), 0.0, 0.0, (-1e9, 1e9))
         forces.append(force)
-    response = control.forced_response(sampled_speed_control(DRIVE), inputs=errors)
+    response = control.forced_response(sampled_speed_control(DRIVE), None, errors)
     assert forces == pytest.approx(list(response.outputs), rel=1e-12)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import control
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 from comprope.drive.cosimulation import create, drive_from_parameters, interface
 from comprope.drive.hoist_dynamics import INPUTS, state_space
@@ -103,7 +104,7 @@ def test_velocity_and_acceleration_belong_to_the_position(up: list[dict[str, Any
 
 
 def test_power_of_the_motor_is_what_the_masses_and_weights_take(up: list[dict[str, Any]]) -> None:
-    work = np.trapezoid(column(up, "motor_torque") * np.gradient(column(up, "encoder_position"), 0.005) / 0.25, dx=0.005)
+    work = trapezoid(column(up, "motor_torque") * np.gradient(column(up, "encoder_position"), 0.005) / 0.25, dx=0.005)
     lifted = (2000.0 - 2300.0) * 9.81 * 50.0  # the hoist ropes end as they began, mirrored
     assert work == pytest.approx(lifted, rel=2e-3)  # beside what the ropes' damping took
 
@@ -129,7 +130,7 @@ def small_trip(load: float) -> tuple[list[dict[str, Any]], np.ndarray]:
     trip = plan_s_curve(drive.profile, 0.0, 0.015, 0.0)
     references = [trip.at(k * period) for k in range(n + 1)]
     u = np.array([[one.position, one.velocity, one.acceleration, load, 0.0] for one in references]).T
-    expected = control.forced_response(loop, inputs=u).outputs
+    expected = control.forced_response(loop, None, u).outputs
     inputs = {**ROPES, "car_end_tension": ROPES["car_end_tension"] + load / drive.rope.count}
     own = create({"trip.destination": 0.015, "trip.start_time": 0.0}, ROPES, 0.0)
     return run(own, [period] * n, inputs), expected

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import trapezoid
 
 from comprope.errors import InputError
 
@@ -161,7 +162,7 @@ def _speed_of(samples: Samples, value: Floats, quantity: str, height: float) -> 
     if quantity != "speed":
         return None
     known = np.isfinite(value)
-    travel = float(np.trapezoid(np.abs(value[known]), samples.time[known]))
+    travel = float(trapezoid(np.abs(value[known]), samples.time[known]))
     top = float(np.percentile(np.abs(value[known]), 99.0))
     return (top, travel) if travel <= height + 1.0 else (top * height / travel, height)
 
