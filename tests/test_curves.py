@@ -275,6 +275,17 @@ def test_texts_and_curves_stand_out_by_more_than_four_and_a_half(dark):
         assert contrast(found["ink"], share * found["heat"] + (1.0 - share) * found["paper"]) > 4.5, share
 
 
+def test_the_curves_of_the_animation_stand_out_by_more_than_four_and_a_half():
+    player = Path(pages.__file__).with_name("player.js").read_text(encoding="utf-8")
+    drawn = re.findall(
+        r'"(#\w{6})"', "".join(line for line in player.splitlines() if "const COLOURS" in line or "const MEASURED" in line)
+    )
+    assert len(drawn) == 8
+    for one in drawn:
+        rgb = np.array([int(two, 16) for two in re.findall("..", one[1:])]) / 255.0
+        assert contrast(rgb, np.array([0xF5, 0xF7, 0xF9]) / 255.0) > 4.5, one
+
+
 # -- in a browser --------------------------------------------------------------------------------------
 
 USE = """

@@ -2,8 +2,8 @@
 "use strict";
 (() => {
   const NOTHING = -32768;
-  const COLOURS = ["#0b4f8a", "#b3361b", "#1b7a45", "#7d3c98", "#9a6700", "#2a8c9c"];
-  const MEASURED = "#e8893b", PLAIN = "#5c6b7a";
+  const COLOURS = ["#0b4f8a", "#b3361b", "#1b7a45", "#7d3c98", "#8a5c00", "#1f7482"];
+  const MEASURED = "#1d2733", PLAIN = "#5c6b7a";
   const CENTRE = 220, GAP = 68, TOP = 60, GROUND = 436, AXLE = 530, ROOM = 100, EYE = 185, SINK = 14; // of the shaft's picture, in its own units
   const CLEAR = 6, FINE = 2; // least distance of the two sides, and length of the pieces in which the rope is led around the sheave
   const WIDE = 520, HIGH = 84, LEFT = 52, RIGHT = 512, UPPER = 18, LOWER = 66; // of a trace's picture
