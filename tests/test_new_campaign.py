@@ -117,6 +117,15 @@ def test_files_that_name_their_columns_otherwise_are_one_campaign(tmp_path, file
     assert other["Laser Kabine [mm]"] == "Rope at the car (mm)" and other["Scheibe Weg (mm)"] is None
 
 
+def test_a_guess_is_left_out_unless_somebody_is_asked(tmp_path, files):
+    table = pd.read_csv(files[0])
+    table.assign(pit_load=1177.0 + 0.1 * np.sin(table["Zeit [ms]"])).to_csv(files[0], index=False)
+    found = comprope_system.new(tmp_path / "a", files[:1], model=MODEL).columns["pit_load"]
+    assert (found.quantity, found.certainty) == (None, "guess") and "perhaps sheave_force [N]" in found.why
+    asked = comprope_system.new(tmp_path / "b", files[:1], model=MODEL, ask=lambda question, default: default)
+    assert asked.columns["pit_load"].quantity == "sheave_force"
+
+
 def test_a_second_column_in_the_same_file_is_not_taken_for_the_first(tmp_path, files):
     table = pd.read_csv(files[0])
     table.assign(cw_low=table["Laser GG unten [mm]"]).to_csv(files[0], index=False)

@@ -33,6 +33,13 @@ def asked_role(column: str, role: Role, model: RopeModel, ask: Ask) -> Role:
     return _answered(question, default, lambda answer: role if answer == default else _role(column, answer, role, model), ask)
 
 
+def without_guess(role: Role) -> Role:
+    """The role of a column that is not asked for: a guess is left out."""
+    if role.certainty != GUESS or role.quantity is None:
+        return role
+    return Role(None, certainty=GUESS, why=f"perhaps {role.shown}, {role.why}")
+
+
 def _role(column: str, answer: str, role: Role, model: RopeModel) -> Role:
     """The role that an answer states; raises `InputError` for one that cannot be."""
     if answer == LEFT_OUT:

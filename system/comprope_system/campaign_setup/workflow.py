@@ -16,7 +16,7 @@ from ..measurements.files.reader import require_regular_file
 from ..presets import model_path
 from .campaign_text import campaign_text
 from .column_matching import renamed, roles
-from .questions import Ask, asked_changes, asked_role
+from .questions import Ask, asked_changes, asked_role, without_guess
 from .result import NewCampaign
 from .survey import SurveyedRun, noise, survey
 
@@ -37,7 +37,8 @@ def new(
 
     `model` is a model file, a preset's name or a `RopeModel`, by default the only model in the folder or the preset tower50.
     `ask(question, default)` returns the answer to what the files do not say; an answer that is not accepted is asked for again.
-    Without `ask` the defaults are taken. Raises `InputError` if campaign.toml exists, or a file holds no motion of a car.
+    Without `ask` guessed columns are left out and the sheave is the model's. Raises
+    `InputError` if campaign.toml exists, or a file holds no motion of a car.
     """
     folder = Path(campaign)
     path = folder / "campaign.toml"
@@ -46,8 +47,7 @@ def new(
     loaded, name, remarks = _model(folder, model)
     surveyed = survey(folder, [_copied(Path(one), folder) for one in files], loaded, MotionColumn())
     found = roles(surveyed, loaded)
-    if ask:
-        found = {column: asked_role(column, role, loaded, ask) for column, role in found.items()}
+    found = {name: asked_role(name, role, loaded, ask) if ask else without_guess(role) for name, role in found.items()}
     used = {column: role for column, role in found.items() if role.quantity}
     channels = [(column, role, noise(surveyed, column)) for column, role in used.items()]
     if not channels:
