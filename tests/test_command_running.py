@@ -105,7 +105,7 @@ def test_no_worker_outlives_the_command(tmp_path: Path, kind: signal.Signals) ->
         children = descendants(parent.pid)
         assert len(children) >= 2
         parent.send_signal(kind)
-        parent.communicate(timeout=20)
+        parent.communicate(timeout=120)
     until = time.monotonic() + 10.0
     while any(Path(f"/proc/{child}").exists() for child in children):
         assert time.monotonic() < until, "a worker is left"

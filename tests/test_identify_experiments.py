@@ -107,6 +107,7 @@ def whitened_distance(campaign, run, first, second):
         size = np.array([np.sum(good & (bins == k)) for k in used])
         slow = max(0.002 * np.std(a[good]), 0.15 * noise)
         covariance = slow**2 * np.exp(-np.abs(np.subtract.outer(used, used)) * width / 0.5) + np.diag(noise**2 / size)
+        covariance += 1e-3 * noise**2 * np.eye(len(used))
         if channel.reference == "rest":
             covariance += noise**2 / np.sum(run.rest)
         total += difference @ np.linalg.solve(covariance, difference)
