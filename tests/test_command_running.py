@@ -50,8 +50,13 @@ def test_the_shell_completes_commands(line: str, wanted: str) -> None:
     assert done.stdout.split() == wanted.split()
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp437", "utf-8"])
-@pytest.mark.parametrize("arguments", [["--help"], ["simulate", "--help"], ["simulate", "absent_лифт.toml"], PRINTING])
+@pytest.mark.parametrize(
+    ("arguments", "encoding"),
+    [
+        *((one, "ascii") for one in (["--help"], ["simulate", "--help"], ["simulate", "absent_лифт.toml"], PRINTING)),
+        *((PRINTING, encoding) for encoding in ("cp1252", "cp437", "utf-8")),
+    ],
+)
 def test_any_encoding_prints_everything(arguments: list[str], encoding: str) -> None:
     done = subprocess.run(
         [*COMMAND, *arguments], capture_output=True, env=os.environ | {"PYTHONIOENCODING": encoding}, timeout=120, check=False

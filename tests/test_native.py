@@ -291,6 +291,7 @@ def built_apart(out: Path, fmu: Path, sources: Path, *effects: Path) -> Path:
     return out / fmu.name
 
 
+@pytest.mark.slow
 def test_same_source_same_bytes(fmu: Path, tmp_path: Path) -> None:
     """Built from elsewhere, in another process, with a remark in a file of kernels, which changes numba's names for all."""
     copy, out = tmp_path / "elsewhere" / "comprope", tmp_path / "out"
