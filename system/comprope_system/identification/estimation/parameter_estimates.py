@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from comprope.quantities import Quantity, quantities
 from comprope.rope.effects import REGISTRY, RopeModel
 from comprope.rope.model_file import with_changes
-from comprope.rope.simulator.rope import values_of
 
 from ..data.campaign import Campaign
 from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
+from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS, plant_values
 from ..settings import ESTIMATES, SCORE
 from .gauss_newton import FitResult
 from .weighted_least_squares import scale_of
@@ -102,7 +101,7 @@ def _declared(key: str) -> Quantity | None:
 
 def plant_estimates(campaign: Campaign, fitted: FitResult, scale: float = 1.0) -> dict[str, Estimate]:
     """Estimates of the plant parameters by model key; runs may replace some of them. `scale` multiplies standard errors."""
-    base, found = values_of(campaign.model) | {CLOCK: 0.0}, {}
+    base, found = plant_values(campaign.model), {}
     for k, one in enumerate(PLANT_PARAMETERS):
         c, standard_error = float(fitted.coefficients[k]), scale * float(fitted.covariance[k, k]) ** 0.5
         place = (lambda x, at=base[one.name]: at * exp(x)) if one.relative else (lambda x, at=base[one.name]: at + x)
