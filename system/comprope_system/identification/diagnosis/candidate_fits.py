@@ -95,16 +95,24 @@ def refit_from_other_masses(
 
 
 def best_on_full_mesh(
-    context: FitContext, found: Sequence[CandidateFit], known: dict[int, CandidateFit]
+    context: FitContext, found: Sequence[CandidateFit], known: list[tuple[FitResult, CandidateFit]]
 ) -> list[CandidateFit]:
-    """The candidate fits, those with a chance to be the verdict on the full mesh; `known` keeps these, by the fit's identity."""
+    """The candidate fits, those with a chance to be the verdict on the full mesh.
+
+    `known` collects each fit on the coarse mesh with the one that continues it, so that none is continued twice.
+    """
     if context.problem.coarse == context.full_problem.coarse:
         return list(found)
     count = len(context.problem.data)
     top = max((one.log_score(count) for one in found), default=0.0)
     promising = [one for one in found if one.refined and one.log_score(count) > top - CANDIDATES.close_score]
-    known |= {id(one.fitted): _on_full_mesh(context, one) for one in promising if id(one.fitted) not in known}
-    return [known.get(id(one.fitted), one) for one in found]
+    known += [(one.fitted, _on_full_mesh(context, one)) for one in promising if _continued(one, known) is None]
+    return [_continued(one, known) or one for one in found]
+
+
+def _continued(one: CandidateFit, known: Sequence[tuple[FitResult, CandidateFit]]) -> CandidateFit | None:
+    """The continuation of this very fit among `known`."""
+    return next((finished for fitted, finished in known if fitted is one.fitted), None)
 
 
 def _on_full_mesh(context: FitContext, one: CandidateFit) -> CandidateFit:

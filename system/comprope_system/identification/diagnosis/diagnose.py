@@ -110,7 +110,7 @@ def diagnose(
         about = (baseline,) if close else (baseline, initial_fit)
         screened = with_sizes(screened, screen_at_sizes(problem, origin, about))
     found = fit_candidates(context, screened)
-    on_full_mesh: dict[int, CandidateFit] = {}
+    on_full_mesh: list[tuple[FitResult, CandidateFit]] = []
     finished = best_on_full_mesh(context, found, on_full_mesh)
     if least_chi_square(finished, baseline.chi_square) > CANDIDATES.mass_threshold * len(problem.data):
         report_progress("linear screening at other masses of the rope")
