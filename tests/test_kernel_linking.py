@@ -5,8 +5,8 @@ from math import sqrt
 
 import pytest
 
-from comprope.rope.compiler.kernel_linking import linked, merged
-from comprope.rope.runtime.jit import kernel
+from comprope.kernels.jit import kernel
+from comprope.kernels.kernel_linking import linked, merged
 
 
 @kernel

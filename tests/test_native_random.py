@@ -99,7 +99,7 @@ def test_any_sequence_of_calls() -> None:
 
 def python_fmu(out: Path) -> Path:
     """The same rope as an FMU in Python."""
-    return build(tower(), ["rope"], ENTRY, out, ORIGIN, bundle(load(presets.model_path("tower50"))))
+    return build(tower(), ["kernels", "rope"], ENTRY, out, ORIGIN, bundle(load(presets.model_path("tower50"))))
 
 
 # So many calls take 20 s and 80 s; by default only a share of them is made.

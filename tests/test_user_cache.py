@@ -15,7 +15,7 @@ import numba
 import pytest
 
 from comprope import user_cache
-from comprope.rope.compiler.disk_cache import compiled_files, source_file
+from comprope.kernels.disk_cache import compiled_files, source_file
 from comprope.user_cache import KEPT, RECENT, entry_folder, verified_files, write_whole
 from comprope_system.cosim import fmu_cache
 from comprope_system.fmu_export.recipes import Recipe

@@ -6,13 +6,13 @@ import numpy as np
 
 from ..fmi.model_interface import ModelInterface, Variable
 from ..fmi.validation import range_text
-from ..rope.compiler.codegen import ARRAYS, INTEGERS
-from ..rope.compiler.entry_points import SOURCES
+from ..kernels.status import MESSAGE_VALUES
+from ..rope.compiler.entry_points import SOURCES, TABLES
 from ..rope.compiler.workspace import without_friction
 from ..rope.effects.base import REGISTRY, Effect
 from ..rope.integration.outputs import OUTPUTS
 from ..rope.runtime.parameter_vector import DECLARED
-from ..rope.runtime.status import MESSAGE_VALUES, MESSAGES
+from ..rope.runtime.status import MESSAGES
 from ..rope.simulator.end_motion import NAMES
 from .llvm_ir import CALLED, PREFIX
 
@@ -20,6 +20,7 @@ _HEADING = "/* Generated from the declarations of the model; not to be edited. *
 _INCLUDES = "#include <stddef.h>\n#include <stdint.h>\n"
 _LAST_OF_STATE = "Ends.samples"  # the arrays of a rope up to this one are what its state consists of
 _AMONG_VARIABLES = ("Ends.u", "Ends.options", "Outputs.sensors")  # have no memory of their own
+ARRAYS, INTEGERS = TABLES.arrays, TABLES.integers
 _C_TYPES = {int: "int64_t", bool: "int8_t", float: "double", type(None): "void"}
 
 

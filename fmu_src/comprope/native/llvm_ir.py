@@ -44,7 +44,7 @@ def kernels(files: Mapping[str, str]) -> str:
 
 
 def sizes(files: Mapping[str, str]) -> dict[int, dict[str, int]]:
-    """For some numbers of nodes, how many numbers each array of a rope has, by group and name as in `codegen.ARRAYS`."""
+    """For some numbers of nodes, how many numbers each array of a rope has, by group and name as in `entry_points.TABLES`."""
     found = json.loads(_apart("sizes", files, {"COMPROPE_PURE_PYTHON": "1"}))
     return {int(nodes): arrays for nodes, arrays in found.items()}
 
@@ -69,8 +69,8 @@ def _code() -> str:
     import llvmlite.binding as llvm
     import numba
 
+    from ..kernels.jit import OPTIONS
     from ..rope.compiler.entry_points import compiled
-    from ..rope.runtime.jit import OPTIONS
 
     whole: Any = llvm.parse_assembly("")
     for name in CALLED:
@@ -113,7 +113,7 @@ def require_no_python(module: Any) -> None:
 def _sizes() -> str:
     import numpy as np
 
-    from ..rope.compiler.codegen import flattened
+    from ..kernels.entry_source import flattened
     from ..rope.compiler.workspace import RopeWorkspace
     from ..rope.runtime.parameter_vector import DECLARED
 

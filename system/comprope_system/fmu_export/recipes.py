@@ -22,32 +22,33 @@ _CODE = Path(comprope.__file__).parent
 
 @dataclass(frozen=True)
 class Recipe:
-    """Source of an FMU: a model, its subpackage of `comprope`, the entry module, and files beside it."""
+    """Source of an FMU: a model, its subpackages of `comprope`, the entry module, and files beside it."""
 
     interface: ModelInterface
-    package: str
+    packages: tuple[str, ...]
     entry: str
     data: Mapping[str, bytes] = field(default_factory=dict)
 
     def build(self, folder: Path, *, reference: bool) -> Path:
         """Write the FMU into a folder, with the reference result if wanted, and return its path."""
         extra = reference_result(self.interface) if reference else None
-        return build(self.interface, [self.package], self.entry, folder, origin(), self.data, extra=extra)
+        return build(self.interface, list(self.packages), self.entry, folder, origin(), self.data, extra=extra)
 
     def sources(self) -> dict[str, bytes]:
         """The code that is copied into the FMU, by path: top-level modules, the FMI's, and those of the model."""
-        files = [*_CODE.glob("*.py"), *(_CODE / "fmi").rglob("*.py"), *(_CODE / self.package).rglob("*.py")]
+        folders = (_CODE / name for name in ("fmi", *self.packages))
+        files = [*_CODE.glob("*.py"), *(file for folder in folders for file in folder.rglob("*.py"))]
         return {file.relative_to(_CODE).as_posix(): file.read_bytes() for file in sorted(files)}
 
 
 def rope_recipe(model: RopeModel) -> Recipe:
     """The rope; its parameters start at the values of the model."""
-    return Recipe(rope_interface(model), "rope", ROPE_ENTRY, bundle(model))
+    return Recipe(rope_interface(model), ("kernels", "rope"), ROPE_ENTRY, bundle(model))
 
 
 def drive_recipe() -> Recipe:
     """The drive."""
-    return Recipe(drive_interface(), "drive", DRIVE_ENTRY)
+    return Recipe(drive_interface(), ("drive",), DRIVE_ENTRY)
 
 
 def origin() -> Origin:

@@ -10,9 +10,15 @@ import sys
 import threading
 import types
 from collections.abc import Iterable
-from functools import cache, partial
+from functools import cache
 from typing import Any
 
+from ...kernels import jit
+from ...kernels.disk_cache import kernel_folder
+from ...kernels.entry import Entry
+from ...kernels.entry_source import EntrySource, Tables
+from ...kernels.joined import entries_of, entries_text, joined_module
+from ...kernels.kernel_linking import linked, merged
 from ..effects import REGISTRY, numerical_tangent
 from ..effects.base import HOOKS, Effect
 from ..effects.kernel_checks import require_consistent
@@ -40,8 +46,8 @@ from ..mechanics import (
     sensors,
     sheave_contact,
 )
-from ..runtime import array_layout, jit, kernel_arguments, parameter_vector, simd, status
-from ..runtime.kernel_arguments import Directions
+from ..runtime import array_layout, kernel_arguments, parameter_vector, simd, status
+from ..runtime.kernel_arguments import TABLE, Directions
 from ..sensitivity import directions
 from ..sensitivity import effects as effect_derivatives
 from ..sensitivity import end_conditions as end_condition_derivatives
@@ -51,10 +57,7 @@ from ..sensitivity import newmark as newmark_derivatives
 from ..sensitivity import sensors as sensor_derivatives
 from ..sensitivity import sheave_contact as sheave_contact_derivatives
 from ..sensitivity import static_equilibrium as static_equilibrium_derivatives
-from .codegen import EntrySource, hook_source, lacks_tangents
-from .disk_cache import compiled_files, kernel_folder, source_file
-from .entry import Entry
-from .kernel_linking import linked, merged
+from .codegen import hook_source, lacks_tangents
 
 MODULES = (
     kernel_arguments, array_layout, status, internal_forces, internal_tangent, contact_law, contact_tangent, sheave_contact,
@@ -88,7 +91,8 @@ ENTRIES = {
     "read_sensors_along": sensor_derivatives.read_sensors_along,
 }
 ABSENT: dict[str, tuple[Any, ...]] = {"advance": (Directions,)}  # groups that an entry point does without
-SOURCES = {name: EntrySource(name, kernel, ABSENT.get(name, ())) for name, kernel in ENTRIES.items()}
+TABLES = Tables(TABLE)
+SOURCES = {name: EntrySource(name, kernel, TABLES, ABSENT.get(name, ())) for name, kernel in ENTRIES.items()}
 
 
 def compiled(effects: tuple[str, ...] | None = None) -> dict[str, Entry]:
@@ -103,15 +107,12 @@ def compiled(effects: tuple[str, ...] | None = None) -> dict[str, Entry]:
 @cache
 def _joined(chosen: tuple[type[Effect], ...]) -> dict[str, Entry]:
     hooks = "\n".join(hook_source(hook, list(chosen)) for hook in HOOKS)
-    entries = "\n".join(one.text for one in SOURCES.values())
-    folder = kernel_folder([hooks, entries, *_sources(chosen), repr(_slots(chosen))])
+    folder = kernel_folder([hooks, entries_text(SOURCES), *_sources(chosen), repr(_slots(chosen))])
     if not (folder / "joined.py").exists():
         for effect in chosen:
             if effect.source:
                 require_consistent(effect)
-    joined = types.ModuleType(f"comprope_joined_{folder.name}")
-    # What is compiled is loaded again by the name of its module, which must not depend on where this package is.
-    sys.modules[joined.__name__] = joined
+    joined = joined_module(folder)
     for effect in chosen:
         _link_effect(effect, joined)
     joined.__dict__["kernel"] = jit.kernel
@@ -119,11 +120,7 @@ def _joined(chosen: tuple[type[Effect], ...]) -> dict[str, Entry]:
     replacing = {f"all_{hook}": getattr(joined, f"all_{hook}") for hook in HOOKS}
     replacing |= {"advance_directions": newmark_derivatives.advance_directions}
     joined.__dict__.update(linked(merged(MODULES, replacing), joined.__name__))
-    exec(compile(entries, source_file(folder, entries), "exec"), joined.__dict__)
-    return {
-        name: Entry(getattr(joined, f"call_{name}"), source, partial(compiled_files, folder, entries, f"call_{name}"))
-        for name, source in SOURCES.items()
-    }
+    return entries_of(joined, folder, SOURCES)
 
 
 def _link_effect(effect: type[Effect], joined: types.ModuleType) -> None:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ...kernels.status import MESSAGE_VALUES
 from ..effects.base import REGISTRY, sections
 from ..integration.input_interpolation import INPUT_MEMORY
 from ..integration.inputs import INPUTS
@@ -14,7 +15,6 @@ from ..mechanics.end_conditions import PATH, PATHS
 from ..runtime import array_layout
 from ..runtime.kernel_arguments import Array, Ends, Motion, Outputs, RopeData, State, Workspace
 from ..runtime.parameter_vector import DECLARED, MU, slot
-from ..runtime.status import MESSAGE_VALUES
 from .entry_points import compiled
 
 

@@ -8,9 +8,9 @@ outward on both sides at a fraction of the car's velocity; it needs the drag coe
 from math import copysign
 from typing import ClassVar
 
+from ...kernels.jit import kernel
 from ...quantities import quantity
 from ..runtime.array_layout import DXX, DXY, DYY, TX, TY
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import DIAMETER, ELEMENT, slot
 from .base import Effect, acts, register
 

@@ -8,9 +8,9 @@ at the start.
 from math import exp
 from typing import ClassVar
 
+from ...kernels.jit import kernel
 from ...quantities import quantity
 from ..runtime.array_layout import BEND_RATE, CURVATURE, MOMENT, STIFF
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import ELEMENT, slot
 from .base import Effect, acts, register
 

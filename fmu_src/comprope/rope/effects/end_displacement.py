@@ -5,8 +5,8 @@ Inside, +y points from the car's side to the counterweight's; the attachment off
 
 from math import cos, pi, sin
 
+from ...kernels.jit import kernel
 from ...quantities import quantity
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import HEIGHT, PIT, slot
 from .base import Effect, acts, register
 

@@ -4,8 +4,8 @@ import ast
 import types
 
 from ...errors import InputError
+from ...kernels import jit
 from ...quantities import Quantity, quantities
-from ..runtime import jit
 from .base import HOOKS, Effect, Kernel
 
 

@@ -1,8 +1,8 @@
 """Intrinsic curvature of the rope, at which its bending moment is zero: M = EI (kappa - kappa_0)."""
 
+from ...kernels.jit import kernel
 from ...quantities import quantity
 from ..runtime.array_layout import BEND_RATE, MOMENT
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import EI, ELEMENT, slot
 from .base import Effect, acts, register
 

@@ -13,7 +13,7 @@ from numba.core.errors import NumbaError
 from numpy.typing import NDArray
 
 from ...errors import InputError
-from ..runtime import jit
+from ...kernels import jit
 from ..runtime.array_layout import BAND, BEND_RATE, CURVATURE, MOMENT, STIFF
 from ..runtime.kernel_arguments import Weights
 from ..runtime.parameter_vector import ELEMENT

@@ -6,8 +6,8 @@ what they read from the workspace w are left out, so Newton's iteration may take
 
 from typing import Any
 
+from ...kernels.jit import stack_array
 from ..runtime.array_layout import DXX, DXY, DYY
-from ..runtime.jit import stack_array
 
 STEP = 1e-6  # m or m/s, by which nodes are moved
 APART = 3

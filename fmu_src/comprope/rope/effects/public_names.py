@@ -1,8 +1,8 @@
 """The names that a file with a user's effect may import from `comprope.effect`."""
 
+from ...kernels.jit import kernel
 from ...quantities import quantity
 from ..runtime import array_layout as work
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import slot
 from .base import Effect, acts, register
 

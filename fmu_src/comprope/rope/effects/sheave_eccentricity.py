@@ -2,8 +2,8 @@
 
 from math import cos, pi, sin
 
+from ...kernels.jit import kernel
 from ...quantities import quantity
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import slot
 from .base import Effect, acts, register
 

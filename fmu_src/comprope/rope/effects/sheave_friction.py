@@ -6,9 +6,9 @@ Coulomb forces are regularised, F = F_c v / sqrt(v^2 + v_0^2), with v_0 well bel
 from math import sqrt
 from typing import ClassVar
 
+from ...kernels.jit import kernel
 from ...quantities import quantity
 from ..runtime.array_layout import DXX, DYY
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import slot
 from .base import Effect, acts, register
 

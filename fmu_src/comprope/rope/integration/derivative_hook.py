@@ -3,7 +3,7 @@
 `compiler` replaces it by the one of `sensitivity.newmark`, so that integration does not depend on sensitivity.
 """
 
-from ..runtime.jit import kernel
+from ...kernels.jit import kernel
 
 
 @kernel

@@ -2,11 +2,11 @@
 
 from math import cos, pi, sin
 
+from ...kernels.jit import kernel
 from ..mechanics.effect_hooks import all_begin
 from ..mechanics.end_conditions import PATH, PATHS, place_ends_of_state
 from ..mechanics.energy import begin_balance
 from ..mechanics.equations_of_motion import forces_of_state
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Ends, Motion, RopeData, State, Weights, Workspace
 from ..runtime.parameter_vector import ELEMENT, HEIGHT, PIT, R
 from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_PLACE, OUT_OF_REACH, SUCCESS

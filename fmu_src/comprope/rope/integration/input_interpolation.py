@@ -6,8 +6,8 @@ SHORTEST_HORIZON apart. `options` says whether velocities and accelerations are 
 the step. See `simulator.end_motion`.
 """
 
+from ...kernels.jit import kernel
 from ..mechanics.end_conditions import PATH, PATHS, follow
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Ends, RopeData, Workspace
 from ..runtime.parameter_vector import R
 from ..runtime.status import SUCCESS, TOO_FAR, TOO_FAST

@@ -2,7 +2,7 @@
 
 from math import pi, sqrt
 
-from ..runtime.jit import kernel
+from ...kernels.jit import kernel
 from ..runtime.kernel_arguments import RopeData, Workspace
 from ..runtime.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, J, K, M, R, slot
 from ..runtime.status import SUCCESS, TOO_COARSE

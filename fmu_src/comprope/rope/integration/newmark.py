@@ -11,13 +11,13 @@ halved, up to `MOST_HALVINGS` times; what is accepted has always converged.
 
 from math import isfinite
 
+from ...kernels.jit import kernel
 from ..linalg.block_band import back_substitute, factor, forward_substitute
 from ..linalg.bordered_band import assemble_bordered, factor_bordered, solve_bordered
 from ..mechanics.end_conditions import place_ends
 from ..mechanics.equations_of_motion import forces, node_mass, tangent_band
 from ..mechanics.sheave_contact import find_contact_range
 from ..runtime.array_layout import FIRST, LAST
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Weights
 from ..runtime.parameter_vector import ALPHA, ELEMENT, J, M, R
 

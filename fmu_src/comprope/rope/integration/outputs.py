@@ -1,10 +1,10 @@
 """Outputs of the rope: sensors, forces, motions, the residual of the energy balance and what the simulation has cost."""
 
+from ...kernels.jit import kernel
 from ..mechanics.energy import EFFECTS, ENDS_WORK, LOSSES, SPENT, STORED, hold_forces
 from ..mechanics.equations_of_motion import forces_of_state
 from ..mechanics.sensors import find_side_maximum, read_sensor
 from ..runtime.array_layout import FORCE_X
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Outputs, RopeData, State, Weights, Workspace
 from ..runtime.parameter_vector import PIT, R
 from .newmark import HALVED, NEWTON

@@ -7,11 +7,11 @@ sheave. The sheave's angle stays where it is: without friction nothing turns it.
 
 from math import isfinite
 
+from ...kernels.jit import kernel
 from ..linalg.block_band import back_substitute, factor
 from ..linalg.bordered_band import assemble_bordered, factor_bordered, solve_bordered
 from ..mechanics.equations_of_motion import forces, tangent_band
 from ..runtime.array_layout import COLUMNS, CONTACT, DYY, FIRST, LAST, ROWS
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Weights
 from ..runtime.parameter_vector import ELEMENT
 

@@ -2,9 +2,9 @@
 
 from math import ceil
 
+from ...kernels.jit import kernel
 from ..mechanics.end_conditions import PATH
 from ..mechanics.energy import update_balance
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Directions, Ends, Motion, RopeData, State, TimeStep, Workspace
 from ..runtime.parameter_vector import ELEMENT, slot
 from ..runtime.status import LOST, LOST_AT_SHEAVE, SUCCESS, TOO_MANY_STEPS

@@ -10,8 +10,8 @@ Section layout of the factor L: inverse of the pivot block (3), then the blocks 
 the next node and U2 = D^-1 G towards the one after (4 each), "next" being nearer to the sheave.
 """
 
+from ...kernels.jit import kernel
 from ..runtime.array_layout import DXX, DXY, DYY, EXX, EXY, EYX, EYY, GXX, GXY, GYX, GYY
-from ..runtime.jit import kernel
 
 FACTOR = 11
 

@@ -6,8 +6,8 @@ The border's own two rows are stored column by column at the end, before its 2 x
 Elimination is without pivoting: the tangent is close to a positive definite one.
 """
 
+from ...kernels.jit import kernel
 from ..runtime.array_layout import COLUMNS, CONTACT, DXX, DXY, DYY, EXX, GXX, ROWS
-from ..runtime.jit import kernel
 
 WIDTH = 5
 ROW = 2 * WIDTH + 3

@@ -5,7 +5,7 @@ instruction, and the blocks of LANES fill each other's waiting. Number (node i, 
 sits at (k 2 m + 2 i + c) LANES of R and has a lane for each of its right-hand sides.
 """
 
-from ..runtime.jit import kernel
+from ...kernels.jit import kernel
 from ..runtime.simd import LANES, load, store
 from .bordered_band import ROW, WIDTH
 

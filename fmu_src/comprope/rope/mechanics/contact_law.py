@@ -10,7 +10,7 @@ The damping fades in with penetration, so that it does not switch on at first to
 
 from math import sqrt
 
-from ..runtime.jit import kernel
+from ...kernels.jit import kernel
 from ..runtime.parameter_vector import ELEMENT, MU, V0, C, K, R
 
 FADE = 1e-4  # m, penetration over which contact damping fades in

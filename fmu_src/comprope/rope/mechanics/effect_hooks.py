@@ -3,7 +3,7 @@
 `compiler` replaces them by functions of the same names that run through the effects of a model.
 """
 
-from ..runtime.jit import kernel
+from ...kernels.jit import kernel
 
 
 @kernel

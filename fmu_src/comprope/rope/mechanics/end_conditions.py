@@ -5,7 +5,7 @@ those it shall have, so that inputs that arrive once per communication step neve
 A path of one coordinate is six numbers: position, velocity and acceleration at start and end.
 """
 
-from ..runtime.jit import kernel
+from ...kernels.jit import kernel
 from ..runtime.kernel_arguments import Ends, Motion, RopeData, State
 from .effect_hooks import all_ends
 

@@ -5,8 +5,8 @@
 vanishes for an exact integration. Works are summed by the trapezoidal rule over the accepted steps.
 """
 
+from ...kernels.jit import kernel
 from ..runtime.array_layout import BEND_RATE, CURVATURE, ELASTIC, FRICTION_LOSS, INVERSE, NORMAL_LOSS, TX, TY
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
 
 STORED = ("kinetic", "gravity", "tension", "bending", "contact", "sheave")

@@ -3,8 +3,8 @@
 Effects act through the functions of `effect_hooks`.
 """
 
+from ...kernels.jit import kernel
 from ..runtime.array_layout import DXX, DXY, DYY
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Motion, RopeData, State, Weights, Workspace
 from ..runtime.parameter_vector import ELEMENT, RHO, G, J, M
 from .effect_hooks import all_forces, all_moments, all_tangents

@@ -14,8 +14,8 @@ continuous rope up to fourth order; the contact is placed to match (see `sheave_
 
 from math import sqrt
 
+from ...kernels.jit import kernel
 from ..runtime.array_layout import BEND_RATE, CURVATURE, FX, FY, INVERSE, MOMENT, SHEAR, SPIN, STIFF, TENSION, TX, TY
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G
 
 

@@ -6,6 +6,7 @@ The tangent leaves out how the damping forces turn with the rope: less than 3e-3
 Newton's iteration does not notice.
 """
 
+from ...kernels.jit import kernel
 from ..runtime.array_layout import (
     BENDING,
     DXX,
@@ -31,7 +32,6 @@ from ..runtime.array_layout import (
     WX,
     WY,
 )
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO
 
 

@@ -1,6 +1,6 @@
 """Reading of a displacement sensor at a fixed height in the shaft."""
 
-from ..runtime.jit import kernel
+from ...kernels.jit import kernel
 
 
 @kernel

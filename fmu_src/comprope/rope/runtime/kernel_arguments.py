@@ -8,9 +8,8 @@ unpack them to the letters of the paper: `q, v = state.q, state.v`. m = n + 1 co
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...kernels.entry_source import Array
 
 
 class RopeData(NamedTuple):

@@ -15,7 +15,7 @@ from numba.core.typing import signature
 from numba.core.typing.templates import ConcreteTemplate, infer_global
 from numba.extending import intrinsic, lower_builtin, models, register_model
 
-from .jit import PURE
+from ...kernels.jit import PURE
 
 LANES = 4
 _VECTOR = ir.VectorType(ir.DoubleType(), LANES)

@@ -1,16 +1,13 @@
-"""Status of a kernel that refuses or gives up: its kind, the message to it, and the values that the message takes.
-
-The texts have C's and Python's common form of `%`, so that a program without Python fills in the same.
-"""
+"""Status of the rope's kernels, and the message to each."""
 
 from collections.abc import Iterable
 
 from ...errors import CompropeError, InputError, SimulationError
+from ...kernels import status as kernel_status
 
 SUCCESS, OUT_OF_REACH, NO_EQUILIBRIUM, LOST, LOST_AT_SHEAVE, TOO_MANY_STEPS, TOO_COARSE, OUT_OF_PLACE = range(8)
 # An end that moves too far, and one that is too fast, for each path of `end_conditions`.
 TOO_FAR, TOO_FAST = 8, 12
-MESSAGE_VALUES = 6  # at most
 _PATHS = ("car_position", "car_lateral_displacement", "counterweight_position", "counterweight_lateral_displacement")
 _TOO_FAR = (
     "%s = %%g m at t = %%g s: %%g m from its last value, %%g s earlier; at most %%g m/s, and jumps of at most %%g m, are "
@@ -18,7 +15,6 @@ _TOO_FAR = (
 )
 _TOO_FAST = "%s = %%g m/s with %%g m/s2 at t = %%g s: a velocity of at most %%g m/s is accepted throughout the step"
 
-# For each kind: the error (the user's values, or the computation), the text, how many values it takes.
 MESSAGES: dict[int, tuple[type[CompropeError], str, int]] = {
     OUT_OF_REACH: (
         InputError,
@@ -65,6 +61,4 @@ MESSAGES |= {TOO_FAST + k: (InputError, _TOO_FAST % name.replace("position", "ve
 
 def require_success(status: float, values: Iterable[float]) -> None:
     """Raise the error that a kernel's status other than SUCCESS stands for, its message with these values."""
-    if status != SUCCESS:
-        error, text, count = MESSAGES[int(status)]
-        raise error(text % tuple(list(values)[:count]))
+    kernel_status.require_success(MESSAGES, status, values)

@@ -6,7 +6,7 @@ the same way: quantity j of a block at (parameters block + j) LANES. `base` and 
 direction, the parameters it starts from and how they change.
 """
 
-from ..runtime.jit import kernel
+from ...kernels.jit import kernel
 from ..runtime.simd import LANES
 
 LARGEST_DIFFERENCE = 1e-7  # m, the largest move by which effects are differenced

@@ -8,10 +8,10 @@ the difference keeps its figures however small it is.
 
 from typing import NamedTuple
 
+from ...kernels.jit import kernel
 from ..mechanics.effect_hooks import all_forces, all_moments
 from ..mechanics.internal_forces import bend
 from ..runtime.array_layout import FX, INVERSE, MOMENT, SPIN, TENSION, TX, TY
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Array, Motion
 from ..runtime.parameter_vector import CA, EA, ELEMENT, R
 from ..runtime.simd import LANES

@@ -1,7 +1,7 @@
 """Directional derivative of the prescribed motion of the ends: by differences of their paths."""
 
+from ...kernels.jit import kernel
 from ..mechanics.end_conditions import PATH, PATHS, place_ends
-from ..runtime.jit import kernel
 from ..runtime.simd import LANES
 from .directions import first_entry, shift_parameters
 

@@ -1,8 +1,8 @@
 """Directional derivative of the right-hand sides of eq. (1) and (2): rope, contact and effects together."""
 
+from ...kernels.jit import kernel
 from ..integration.newmark import copy
 from ..mechanics.equations_of_motion import forces_of_state
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Directions, Motion, RopeData, State, Weights, Workspace
 from ..runtime.parameter_vector import R
 from ..runtime.simd import LANES

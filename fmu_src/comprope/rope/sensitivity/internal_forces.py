@@ -8,8 +8,8 @@ along the rope; `sheave_contact` does the same for the contact. How a block of d
 
 from typing import NamedTuple
 
+from ...kernels.jit import kernel
 from ..runtime.array_layout import BEND_RATE, CURVATURE, INVERSE, SHEAR, SPIN, TENSION, TX, TY
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
 from ..runtime.simd import LANES, load, store
 

@@ -12,6 +12,7 @@ correction alone; or it is renewed as a whole (`exact`). The next dc follows fro
 What the ends do with dp is read off their paths by differences. How directions are stored: see `directions`.
 """
 
+from ...kernels.jit import kernel
 from ..integration.newmark import factor_tangent, newmark_weights
 from ..linalg.bordered_band import assemble_bordered, factor_bordered
 from ..linalg.multi_rhs import solve_lanes
@@ -20,7 +21,6 @@ from ..mechanics.effect_hooks import all_groove
 from ..mechanics.equations_of_motion import forces, node_mass
 from ..mechanics.sheave_contact import add_pieces
 from ..runtime.array_layout import FIRST, LAST
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Motion, Weights
 from ..runtime.parameter_vector import ALPHA, J, M
 from ..runtime.simd import LANES, load, store

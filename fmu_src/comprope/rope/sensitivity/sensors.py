@@ -1,7 +1,7 @@
 """Directional derivative of what sensors read: `mechanics.sensors`, differentiated by hand."""
 
+from ...kernels.jit import kernel
 from ..mechanics.sensors import crossing, read_sensor
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Directions, Outputs, RopeData, State
 from ..runtime.parameter_vector import R
 from ..runtime.simd import LANES

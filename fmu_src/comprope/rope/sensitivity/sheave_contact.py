@@ -11,11 +11,11 @@ How the groove's centre itself answers is read off `all_groove` by differences, 
 
 from math import sqrt
 
+from ...kernels.jit import kernel
 from ..mechanics.contact_law import FADE, POINTS, contact_radius, friction_law, normal_law, shape
 from ..mechanics.effect_hooks import all_groove
 from ..mechanics.sheave_contact import near
 from ..runtime.array_layout import FIRST, LAST
-from ..runtime.jit import kernel
 from ..runtime.parameter_vector import ELEMENT, MU, V0, C, K, R
 from ..runtime.simd import LANES, load, store
 from .internal_forces import predicted

@@ -1,10 +1,10 @@
 """Static equilibrium with changed parameters, for derivatives of the initial state."""
 
+from ...kernels.jit import kernel
 from ..integration.static_equilibrium import solve_equilibrium
 from ..mechanics.effect_hooks import all_begin
 from ..mechanics.end_conditions import place_ends
 from ..mechanics.equations_of_motion import forces
-from ..runtime.jit import kernel
 from ..runtime.kernel_arguments import Directions, Motion, RopeData, Weights, Workspace
 
 

@@ -4,7 +4,7 @@ import types
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ..runtime import jit
+from . import jit
 
 
 def merged(modules: Iterable[types.ModuleType], replacing: Mapping[str, Any]) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numba
 
-from ...user_cache import entry_folder, verified_files, write_whole
+from ..user_cache import entry_folder, verified_files, write_whole
 
 _CONFIG: Any = numba.config
 _LOCK = threading.RLock()

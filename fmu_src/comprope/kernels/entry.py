@@ -8,8 +8,8 @@ from typing import Any
 
 import numba
 
-from ..runtime import jit
-from .codegen import ARRAYS, INTEGERS, EntrySource, flattened
+from . import jit
+from .entry_source import EntrySource, flattened
 
 _TYPES = {int: numba.int64, float: numba.float64, bool: numba.boolean, type(None): numba.void}
 _TABLES = (numba.types.CPointer(jit.POINTER), numba.types.CPointer(numba.int64))
@@ -41,7 +41,7 @@ class Entry:
             return numba.cfunc(self.signature, cache=True, **options)(self.function).ctypes
 
     def bind(self, *groups: Any) -> Callable[..., Any]:
-        """The function with arrays and integers taken from groups of `kernel_arguments`; what is left to give are the numbers.
+        """The function with arrays and integers taken from groups; what is left to give are the numbers.
 
         The arrays must be contiguous and outlive the function.
         """
@@ -57,18 +57,20 @@ class Entry:
 
     def _arrays(self, fields: dict[str, Any]) -> Any:
         """The table of arrays: those that the function uses, in their places."""
-        used = {ARRAYS[name]: fields[name] for name in self.source.used if name in ARRAYS}
+        places = self.source.tables.arrays
+        used = {places[name]: fields[name] for name in self.source.used if name in places}
         if jit.PURE:
             return used
         pointer = ctypes.POINTER(ctypes.c_double)
-        table = (pointer * len(ARRAYS))()
+        table = (pointer * len(places))()
         for place, array in used.items():
             table[place] = array.ctypes.data_as(pointer)
         return table
 
     def _integers(self, fields: dict[str, Any]) -> Any:
         """The table of integers, likewise."""
-        used = {INTEGERS[name]: fields[name] for name in self.source.used if name in INTEGERS}
+        places = self.source.tables.integers
+        used = {places[name]: fields[name] for name in self.source.used if name in places}
         if jit.PURE:
             return used
-        return (ctypes.c_int64 * len(INTEGERS))(*(used.get(place, 0) for place in range(len(INTEGERS))))
+        return (ctypes.c_int64 * len(places))(*(used.get(place, 0) for place in range(len(places))))
