@@ -127,3 +127,30 @@ def test_a_run_that_cannot_be_driven_is_refused(folder, columns, wanted):
 def test_no_campaign_at_all(tmp_path):
     (line,) = told(tmp_path / "nowhere")
     assert "nowhere" in line and "cannot be read" in line
+
+
+def test_a_run_may_have_units_and_signs_of_its_own(folder):
+    usual = load_campaign(folder).runs[0]
+    table(folder, "up.csv", 2.0, 7.0, cw_low=np.full(len(np.arange(0.0, END, SAMPLING)), -0.7))
+    path = folder / "campaign.toml"
+    own = 'file = "up.csv"\nreadings = { cw_low = { unit = "cm", sign = -1, zero = -0.2 } }'
+    path.write_text(path.read_text().replace('file = "up.csv"', own))
+    found = load_campaign(folder)
+    assert np.allclose(found.runs[0].values["cw_low"], usual.values["cw_low"])  # -1 * (-0.7 + 0.2) cm, 5 mm
+    assert np.allclose(found.runs[1].values["cw_low"], 5e-3)  # the others are read as before
+    assert found.channels["cw_low"].unit == "mm"
+
+
+def test_names_in_a_run_that_stand_for_nothing_are_refused(folder):
+    path = folder / "campaign.toml"
+    own = (
+        'file = "up.csv"\nfiles = { cw_lwo = "laser.csv", cw_low = "up.csv" }\noffsets = { "lasers.csv" = 0.3 }\n'
+        'readings = { axle = { unit = "rpm" } }'
+    )
+    path.write_text(path.read_text().replace('file = "up.csv"', own))
+    lines = [line.split("campaign.toml: ")[1] for line in told(folder)]
+    assert lines == [
+        'runs[1].files."cw_lwo": no channel of the run; did you mean "cw_low"?',
+        'runs[1].offsets."lasers.csv": no other file of the run; did you mean "laser.csv"?',
+        'runs[1].readings."axle".unit = "rpm": for sheave_displacement m, cm, mm, um are accepted',
+    ]

@@ -50,6 +50,11 @@ def test_all_problems_are_named_at_once(tmp_path):
     assert '"car" or "counterweight" is accepted' in lines[3]
 
 
+def test_ropes_of_a_sheave_are_a_whole_number(tmp_path):
+    (line,) = refusal(tmp_path, TOWER.replace("mass = 120.0", "mass = 120.0\nropes = 2.5"))
+    assert line == "sheave.ropes: 2.5 ropes; a whole number is accepted"
+
+
 @pytest.mark.parametrize("component", [Shaft, Rope, Sheave, Contact])
 def test_every_number_is_refused_outside_its_declared_range(component):
     model = load(presets.model_path("tower50"))

@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from ..quantities import Component, quantity
 
@@ -44,6 +44,13 @@ class Sheave(Component):
     radius: float = quantity("m", "radius to the rope's centre line", 0.05, 3.0, nominal=0.4)
     inertia: float = quantity("kg.m2", "moment of inertia about the axle", 1e-4, 1e5, nominal=10.0)
     ropes: float = quantity("1", "ropes that share mass and inertia; forces are those of one rope", 1.0, 50.0, default=1.0)
+
+    @field_validator("ropes")
+    @classmethod
+    def _whole(cls, ropes: float) -> float:
+        if ropes != round(ropes):
+            raise ValueError(f"{ropes:g} ropes; a whole number is accepted")
+        return ropes
 
     @property
     def mass_per_rope(self) -> float:

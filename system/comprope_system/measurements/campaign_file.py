@@ -64,6 +64,12 @@ class Channel(Reading):
         return UNITS[self.quantity][self.unit]
 
 
+class RunReading(Reading):
+    """What differs in one run from how a channel or a motion is read in the others; what is absent is as there."""
+
+    unit: str | None = Field(default=None, description="unit of the column in this run")
+
+
 class RunSpec(Component):
     """Entry of a run in campaign.toml: its files, its role, and the parameters that differ from the model file."""
 
@@ -73,6 +79,9 @@ class RunSpec(Component):
     files: dict[str, str] = Field(default_factory=dict, description='other files by channel, or "car": { cw_low = "laser.csv" }')
     columns: dict[str, str] = Field(
         default_factory=dict, description='names in this run\'s files by channel: { cw_low = "Laser 1" }'
+    )
+    readings: dict[str, RunReading] = Field(
+        default_factory=dict, description='what differs in this run, by channel or "car": { cw_low = { unit = "m", sign = -1 } }'
     )
     offsets: dict[str, float] = Field(default_factory=dict, description="seconds to add to the times of another file, by file")
     car_start: float | None = Field(

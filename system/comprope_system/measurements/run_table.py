@@ -18,6 +18,7 @@ from .files.file_format import FileFormat
 from .motion_column import MotionSignal, mirrored, read_motion
 from .motion_columns import idle_columns, read_lateral
 from .run_files import RunFiles
+from .run_readings import with_readings
 from .units import UNITS
 
 Floats = NDArray[np.float64]
@@ -52,6 +53,7 @@ def read_run_table(folder: Path, spec: RunSpec, described: CampaignFile, height:
     """
     files = RunFiles(folder, spec, described.file, within)
     problems: list[str] = []
+    described = with_readings(described, spec)
     remarks: list[str] = []
     car = _collect(problems, lambda: read_motion(files, described.car, "car", height, spec.car_start))
     counterweight = _collect(problems, lambda: read_motion(files, described.counterweight, "counterweight", height, None))

@@ -20,6 +20,7 @@ from comprope.rope.model_file import load, with_changes
 from ...measurements.campaign_file import CampaignFile, Channel, RunSpec, Tolerance, read_campaign_file
 from ...measurements.end_motions import EndMotions, EndSignals, recover_ends
 from ...measurements.motion.anchoring import Landings
+from ...measurements.run_readings import run_problems
 from ...measurements.run_table import RunTable, read_run_table
 from ...measurements.units import UNITS
 from .car_direction import mirrored_car
@@ -90,9 +91,10 @@ def _collect(problems_found: list[str], make: Any) -> Any:
 
 
 def channel_problems(path: Path, described: CampaignFile, model: RopeModel | None) -> list[str]:
-    """Sentences about channels that are described twice, or with a unit or sensor that there is not."""
+    """Sentences about channels that are described twice, or with a unit, sensor or run's entry that there is not."""
     found, names = [], [one.column for one in described.channels]
     found += [f"{path}: channels: column {name} is described twice" for name in sorted({n for n in names if names.count(n) > 1})]
+    found += [f"{path}: {line}" for line in run_problems(described)]
     sensors = [sensor.name for sensor in model.sensors] if model else []
     for k, one in enumerate(described.channels, 1):
         where = f"{path}: channels[{k}]"
@@ -137,7 +139,8 @@ def _ends(table: RunTable, spec: RunSpec, described: CampaignFile, height: float
 
 def _without_unseen_rest(run: Run, described: CampaignFile) -> Run:
     """The run without its channels relative to rest that show nothing before the trip, with a remark for each."""
-    relative = [one.column for one in described.channels if one.reference == "rest" and np.isfinite(run.values[one.column]).any()]
+    rested = [one.column for one in described.channels if one.reference == "rest" and one.column in run.values]
+    relative = [column for column in rested if np.isfinite(run.values[column]).any()]
     unseen = [column for column in relative if not np.isfinite(run.values[column][run.rest]).any()]
     if not unseen:
         return run
