@@ -1,11 +1,11 @@
-"""Questions about what raw files do not state: columns that were guessed, and the sheave of each run."""
+"""Questions about what raw files do not state: columns that were guessed, the sheave of each run, and the elevator's data."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TypeVar, get_args
 
 from comprope.errors import InputError
-from comprope.quantities import quantities
+from comprope.quantities import Component, quantities
 from comprope.rope.effects import RopeModel
 from comprope.rope.parameters import Sheave
 
@@ -30,7 +30,7 @@ def asked_role(column: str, role: Role, model: RopeModel, ask: Ask) -> Role:
         f"{printable(column)}: what is it? ({printable(role.why)}) QUANTITY UNIT, or lateral_displacement SENSOR UNIT, or "
         f"{LEFT_OUT} to leave it out; quantities: {quantities}; sensors: {sensors}"
     )
-    return _answered(question, default, lambda answer: role if answer == default else _role(column, answer, role, model), ask)
+    return answered(question, default, lambda answer: role if answer == default else _role(column, answer, role, model), ask)
 
 
 def without_guess(role: Role) -> Role:
@@ -56,18 +56,24 @@ def _role(column: str, answer: str, role: Role, model: RopeModel) -> Role:
 
 def asked_changes(file: str, model: RopeModel, ask: Ask) -> Mapping[str, object]:
     """What differs from the model in a run: mass and, of another mass, inertia of the sheave, which no file states."""
-    share = "one rope's share" if model.sheave.ropes == 1.0 else f"carried by {model.sheave.ropes:g} ropes"
-    mass = _number(file, "sheave.mass", f"mass of the sheave in this run, {share}", "kg", model.sheave.mass, ask)
+    share, shown = share_of(model.sheave.ropes), printable(file)
+    mass = asked_number(shown, Sheave, "mass", f"mass of the sheave in this run, {share}", model.sheave.mass, ask)
     if mass == model.sheave.mass:
         return {}
     in_proportion = model.sheave.inertia * mass / model.sheave.mass
-    inertia = _number(file, "sheave.inertia", f"moment of inertia of this sheave, {share}", "kg m2", in_proportion, ask)
+    inertia = asked_number(shown, Sheave, "inertia", f"moment of inertia of this sheave, {share}", in_proportion, ask)
     return {"sheave.mass": mass, "sheave.inertia": inertia}
 
 
-def _number(file: str, key: str, what: str, unit: str, default: float, ask: Ask) -> float:
-    """A parameter of the sheave, within the range that model files accept."""
-    limits = {one.name: one for one in quantities(Sheave)}[key.partition(".")[2]]
+def share_of(ropes: float) -> str:
+    """Of which part of the sheave mass and inertia are stated."""
+    return "one rope's share" if ropes == 1.0 else f"carried by {ropes:g} ropes"
+
+
+def asked_number(where: str, component: type[Component], name: str, what: str, default: float, ask: Ask) -> float:
+    """A parameter of a component, within the range that model files accept."""
+    limits = {one.name: one for one in quantities(component)}[name]
+    key, unit = f"{component.__name__.lower()}.{name}", "" if limits.unit == "1" else f" [{limits.unit}]"
 
     def read(answer: str) -> float:
         try:
@@ -75,14 +81,14 @@ def _number(file: str, key: str, what: str, unit: str, default: float, ask: Ask)
         except ValueError:
             value = float("nan")
         if not limits.minimum <= value <= limits.maximum:
-            accepted = f"a number from {limits.minimum:g} to {limits.maximum:g} [{unit}] is accepted"
-            raise InputError(f"{printable(file)}: {key} = {printable(answer)}: {accepted}")
+            accepted = f"a number from {limits.minimum:g} to {limits.maximum:g}{unit} is accepted"
+            raise InputError(f"{where}: {key} = {printable(answer)}: {accepted}")
         return value
 
-    return _answered(f"{printable(file)}: {what} [{unit}]", f"{default:g}", read, ask)
+    return answered(f"{where}: {what}{unit}", f"{default:g}", read, ask)
 
 
-def _answered(question: str, default: str, read: Callable[[str], Answer], ask: Ask) -> Answer:
+def answered(question: str, default: str, read: Callable[[str], Answer], ask: Ask) -> Answer:
     """What `read` makes of the answer; one that it refuses is asked for again, at most `ATTEMPTS` times in all."""
     for _ in range(ATTEMPTS - 1):
         answer = ask(question, default).strip()

@@ -145,4 +145,3 @@ def noise(runs: Sequence[SurveyedRun], name: str) -> float | None:
                     steps = np.diff(rest)
                     found.append(MAD_FACTOR * float(np.median(np.abs(steps - np.median(steps)))) / 2.0**0.5)
     return float(f"{np.median(found):.2g}") if found and np.median(found) > 0.0 else None
-

@@ -13,7 +13,7 @@ from ._terminal import OutputFile, finish, require_files
 
 FOLDER = Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder in which campaign.toml is written.")]
 FILES = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Files of a logger, one for each run.")]
-MODEL = Annotated[str | None, typer.Option(metavar="MODEL.toml", help="Model file or preset; default tower50.")]
+MODEL = Annotated[str | None, typer.Option(metavar="MODEL.toml", help="Model file, data sheet or preset; default tower50.")]
 YES = Annotated[bool, typer.Option("--yes", help="Ask nothing.")]
 
 
