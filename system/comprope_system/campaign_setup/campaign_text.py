@@ -12,7 +12,7 @@ def campaign_text(
     name: str, model: str, tables: Mapping[str, Mapping[str, object]], channels: Sequence[tuple[str, Role, float | None]],
     runs: Sequence[tuple[str, str, Mapping[str, str], Mapping[str, object]]],
 ) -> str:  # fmt: skip
-    """The file: name, model, tables as `[file]`, `[car]` and `[plant]`, channels with noise, runs with role, names and changes."""
+    """The file: name, model, tables such as `[car]` and `[plant]`, channels with noise, runs with role, names and changes."""
     lines = ["# Written by `comprope new`. Check what each column was taken for; docs: first_campaign.md", ""]
     lines += [f"name = {_value(name)}", f"model = {_value(model)}", ""]
     for title, table in tables.items():
