@@ -13,5 +13,5 @@ def compare(campaign: CAMPAIGN, json: JSON = None, report: REPORT = None) -> Non
     """
     require_files(OutputFile(json), OutputFile(report, "page"))
     with progress_display() as progress:
-        result = comprope_system.compare(campaign, progress=progress)
+        result = comprope_system.compare(campaign, previews=report is not None, progress=progress)
     finish(result, (json, result.save_json), (report, result.save_html))

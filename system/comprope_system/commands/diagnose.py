@@ -26,5 +26,7 @@ def diagnose(
     """
     require_files(OutputFile(json), OutputFile(report, "page"))
     with progress_display() as progress:
-        result = comprope_system.diagnose(campaign, without=without or (), executor=executor, jobs=jobs, progress=progress)
+        result = comprope_system.diagnose(
+            campaign, without=without or (), executor=executor, jobs=jobs, previews=report is not None, progress=progress
+        )
     finish(result, (json, result.save_json), (report, result.save_html))

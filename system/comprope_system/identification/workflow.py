@@ -18,6 +18,7 @@ from .hypotheses.plant_parameters import plant_values, with_tolerances
 from .model_updating.add_effect import add_effect
 from .model_updating.stepwise_selection import select_stepwise
 from .prediction.parameter_point import ParameterPoint
+from .preview.candidates import preview_fits, preview_model_effects
 from .progress import ProgressCallback
 from .residuals.input_estimation import estimate_residual_force
 from .residuals.residual_correlation import residual_correlations
@@ -41,19 +42,25 @@ def check(campaign: str | Path) -> CheckResult:
 
 
 def compare(
-    campaign: CampaignInput, *, executor: Executor | str | None = None, progress: Progress = no_progress
+    campaign: CampaignInput,
+    *,
+    executor: Executor | str | None = None,
+    previews: bool = False,
+    progress: Progress = no_progress,
 ) -> ComparisonResult:
     """Simulate the model with the measured car motion, and compute its error for each run and channel.
 
     `campaign` is a folder with campaign.toml, that file, or a `Campaign`. Runs on `executor` (of concurrent.futures, or
-    "dask://HOST:PORT"), else on threads of this process. Raises `InputError` with every problem of the campaign's files,
-    `SimulationError` where a run cannot be simulated.
+    "dask://HOST:PORT"), else on threads of this process. With `previews` the effects that the model has are replayed with other
+    parameters too, so that the page of the result lets them be moved. Raises `InputError` with every problem of the campaign's
+    files, `SimulationError` where a run cannot be simulated.
     """
     loaded = _loaded(campaign)
     with threads(executor) as workers:
         progress("simulating the runs", 0, 0)
         found = compare_with_model(loaded, workers)
-    return ComparisonResult(found, tuple(remarks(loaded, found.predictions)))
+        moved = preview_model_effects(loaded, workers, _stages(progress)) if previews else []
+    return ComparisonResult(found, tuple(remarks(loaded, found.predictions)), tuple(moved))
 
 
 def diagnose(
@@ -62,14 +69,16 @@ def diagnose(
     without: Sequence[str] = (),
     executor: Executor | str | None = None,
     jobs: int | None = 1,
+    previews: bool = False,
     progress: Progress = no_progress,
 ) -> DiagnosisResult:
     """Identify the physical effect that is missing from the model, with its probability.
 
     Every known effect but those in `without` is fitted on the fit runs; validation runs are used for neither fit nor ranking.
     `campaign` is a folder with campaign.toml, that file, or a `Campaign`. Runs on `executor` (of concurrent.futures, or
-    "dask://HOST:PORT"), else on `jobs` processes, 1 being this one and None one for each core; it takes minutes. Raises
-    `InputError` for problems of the campaign's files or an unknown effect, `SimulationError` where the model cannot be simulated.
+    "dask://HOST:PORT"), else on `jobs` processes, 1 being this one and None one for each core; it takes minutes. With `previews`
+    the best fits are replayed with other parameters too, so that the page of the result lets them be moved. Raises `InputError`
+    for problems of the campaign's files or an unknown effect, `SimulationError` where the model cannot be simulated.
     """
     loaded, report = _loaded(campaign), _stages(progress)
     require_effects(without)
@@ -82,9 +91,12 @@ def diagnose(
         next_runs = rank_candidate_runs(found, workers) if is_inconclusive(found) else []
         unknown = found.kind == "unknown_effect"
         force = estimate_residual_force(found.problem, found.baseline, report) if unknown else None
+        moved = preview_fits(found, workers, report) if previews else []
     residual = validated.refitted.predictions
     correlations = [] if found.kind == "adequate" else residual_correlations(loaded, residual)
-    return DiagnosisResult(validated, tuple(correlations), rest_ratio_of(loaded, residual), force, tuple(next_runs))
+    return DiagnosisResult(
+        validated, tuple(correlations), rest_ratio_of(loaded, residual), force, tuple(next_runs), tuple(moved)
+    )
 
 
 def add(

@@ -24,7 +24,7 @@
       ? curves.filter((one) => one !== measured).map((one) => ({ ...one, residual: true, value: less(measured.value, one.value) }))
       : [];
     const largest = curves.reduce((most, one) => one.value.reduce((a, b) => Math.max(a, Math.abs(b)), most), 0);
-    return { ...panel, place: unpack(panel.place), curves, residuals, largest };
+    return { ...panel, source: panel, place: unpack(panel.place), curves, residuals, largest };
   }
 
   // A value of three digits; what is below the digits of the data is zero.
@@ -137,7 +137,7 @@
       const residual = place === "residual", move = (plot) => this.tell(own, plot), { panel } = own;
       const options = {
         width: this.width(), height: residual ? RESIDUAL_HEIGHT : HEIGHT, legend: { show: false }, padding: [6, 12, 0, 0],
-        scales: { x: { time: false, range: () => this.range } }, axes: axes(place, this.owner.data.unit), series: [{}, ...curves.map(series)],
+        scales: { x: { time: false, range: () => this.range }, y: { range: (plot, low, high) => this.owner.limits(own.panel, residual) ?? (low === null ? [null, null] : uPlot.rangeNum(low, high, 0.1, true)) } }, axes: axes(place, this.owner.data.unit), series: [{}, ...curves.map(series)],
         hooks: { drawClear: [background(this.data, panel, residual)], setCursor: [move], setSelect: [(plot) => this.select(plot)] },
         cursor: {
           y: false, drag: { x: true, y: false, setScale: false }, points: { size: 6 },
@@ -266,7 +266,7 @@
     showGroup(k, on) {
       const group = this.groups[k];
       group.box.hidden = !on;
-      if (on) { group.draw(); this.apply(group); group.resize(); }
+      if (on) { group.draw(); this.drawn?.(); this.apply(group); group.resize(); }
     }
 
     toggle(what, name, on) {
@@ -288,6 +288,33 @@
       }
     }
 
+    // Other values of the last curve of a panel, as of a preview; its residual follows.
+    replace(k, panel, values) {
+      const shown = this.groups[k].panels?.[panel];
+      if (!shown) return;
+      const { curves, residuals } = shown.panel, last = curves.length - 1, measured = curves.find((one) => one.style === "measured");
+      curves[last].value = values;
+      for (const one of residuals.slice(-1)) one.value = values.map((value, j) => (value === null || measured.value[j] === null ? null : measured.value[j] - value));
+      for (const plot of shown.plots) {
+        plot.setData([shown.panel.place, ...plot.curves.map((one) => one.value)], false);
+        plot.redraw();
+      }
+    }
+
+    // Axes of a panel that hold the measured curve and all of some values of the model, and their residuals.
+    limit(k, panel, all) { (this.groups[k].data.panels[panel].limits = { all }); }
+
+    limits(panel, residual) {
+      const { limits } = panel.source;
+      if (!limits) return null;
+      if (!limits.found || limits.found.of !== limits.all) {
+        const measured = panel.curves.find((one) => one.style === "measured").value, less = (one) => one.map((value, j) => (value === null ? null : measured[j] - value));
+        const reach = (rows) => { const known = rows.flat().filter((one) => one !== null); return uPlot.rangeNum(Math.min(...known), Math.max(...known), 0.1, true); };
+        limits.found = { of: limits.all, curves: reach([measured, ...limits.all]), residuals: reach(limits.all.map(less)) };
+      }
+      return residual ? limits.found.residuals : limits.found.curves;
+    }
+
     // Shows one panel, over one span of its axis.
     visit(k, panel, span) {
       const group = this.groups[k], named = group.data.panels[panel];
@@ -302,6 +329,7 @@
   }
 
   const all = new Map([...document.querySelectorAll("figure.curves")].map((one) => [one.id, new Curves(one)]));
+  window.compropeCurves = all;
   const each = (act) => { for (const one of all.values()) for (const group of one.groups) act(group); };
 
   document.addEventListener("click", (event) => {

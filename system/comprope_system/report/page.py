@@ -18,9 +18,11 @@ from comprope.atomic_files import atomic_write
 from .card import Card
 from .curves import Curves
 from .heat_map import HeatMap
+from .preview import Preview
 
 DPI = 130
 UPLOT = ("uplot/uPlot.min.css", "curves.css", "uplot/notice.js", "uplot/uPlot.iife.min.js", "curves.js")
+PREVIEW = ("preview.css", "preview.js")
 NUMBER = re.compile(r"[-−+]?[\d.][\d.e+/-]*( ± [\d.e+-]+)?( [^ \d]+)?")  # or two, with a standard error, with a unit
 MARKS = {"yes": "yes", "no": "no", "partly": "partly", "pass": "yes", "fail": "no"}
 
@@ -77,7 +79,7 @@ class Animation:
     caption: str = ""
 
 
-Block = str | Card | Table | HeatMap | Picture | Curves | Animation
+Block = str | Card | Table | HeatMap | Picture | Curves | Preview | Animation
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,8 @@ def render(template: str, title: str, lead: str = "", **values: Any) -> str:
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
     blocks = [block for section in values.get("sections", ()) for block in section.blocks]
-    plotted = UPLOT if any(isinstance(block, Curves) for block in blocks) else ()
+    plotted: tuple[str, ...] = UPLOT if any(isinstance(block, (Curves, Preview)) for block in blocks) else ()
+    plotted += PREVIEW if any(isinstance(block, Preview) for block in blocks) else ()
     played = ("player.js",) if any(isinstance(block, Animation) for block in blocks) else ()
     page = {
         "title": title, "lead": lead, "version": _version(),

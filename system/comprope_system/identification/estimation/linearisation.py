@@ -130,18 +130,25 @@ def instrument_jacobian(
 def _instrument_column(problem: LeastSquaresProblem, direction: Direction, here: ParameterPoint, at: Predictions) -> Floats:
     """Derivative (N,) of one channel by its gain, offset, delay or drift, from the predictions alone."""
     ((key, size),) = direction.changes.items()
-    _, effect, column = key.split(".", 2)
-    moved = {}
-    for run in problem.runs:
-        value = at[run.file, column]
-        slope = {
-            "sensor_gain": value / here.effects.get(key, 1.0),
-            "sensor_offset": np.ones_like(value),
-            "sensor_drift": run.time - run.time[0],
-            "sensor_delay": _delay_derivative(run, value),
-        }[effect]
-        moved[run.file, column] = size * relative_to_rest({column: slope}, run, problem.campaign.channels)[column]
+    column, channels = key.split(".", 2)[2], problem.campaign.channels
+    moved = {
+        (run.file, column): size * instrument_slope(key, here, run, at[run.file, column], channels) for run in problem.runs
+    }
     return problem.column(moved)
+
+
+def instrument_slope(
+    key: str, here: ParameterPoint, run: Run, value: Floats, channels: Mapping[str, Channel]
+) -> Floats:
+    """Derivative (n,) of the predicted `value` (n,) of a channel by the parameter `key` of its instrument, relative to rest."""
+    _, effect, column = key.split(".", 2)
+    slope = {
+        "sensor_gain": value / here.effects.get(key, 1.0),
+        "sensor_offset": np.ones_like(value),
+        "sensor_drift": run.time - run.time[0],
+        "sensor_delay": _delay_derivative(run, value),
+    }[effect]
+    return relative_to_rest({column: slope}, run, channels)[column]
 
 
 def _delay_derivative(run: Run, value: Floats) -> Floats:

@@ -6,7 +6,9 @@ from pathlib import Path
 from ...report.page import Block, Section, save_page
 from ..comparison.compare import Comparison
 from ..comparison.largest_error import largest_error
+from ..preview.effect_preview import EffectPreview
 from . import heat_maps, sentences, tables
+from .preview_section import preview_section
 from .run_curves import order_curves, run_curves
 
 DEFINITIONS = (
@@ -17,12 +19,15 @@ DEFINITIONS = (
 CURVES = "curves"  # name of the figure with the runs
 
 
-def save_comparison(path: Path, comparison: Comparison, remarks: Sequence[str]) -> None:
+def save_comparison(
+    path: Path, comparison: Comparison, remarks: Sequence[str], previews: Sequence[EffectPreview] = ()
+) -> None:
     """Write the page of a comparison, completely or not at all."""
     sections = [
         Section("summary", "Errors by run, channel and phase", [heat_maps.error_map(comparison, CURVES), DEFINITIONS]),
         data_quality_section(remarks),
         Section("runs", "Measured and simulated", [run_curves(CURVES, {"model": comparison}, worst_run(comparison))]),
+        *preview_section(previews, comparison, worst_run(comparison), fitted=False),
         _position_section(comparison),
         order_section(comparison, "Residual by order of the sheave's rotation", "the model as given"),
     ]

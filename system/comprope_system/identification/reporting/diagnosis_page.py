@@ -6,11 +6,13 @@ from pathlib import Path
 from ...report.page import Block, Picture, Section, Table, save_page
 from ..diagnosis.experiment_design import ProposedRun, best_two_fits
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, implausible_parameters, ranking
+from ..preview.effect_preview import EffectPreview
 from ..residuals.input_estimation import InputEstimation
 from ..residuals.residual_correlation import ResidualCorrelation, correlation_sentences
 from ..settings import CORRELATION, EXPERIMENTS
 from . import figures, sentences, tables
-from .comparison_page import before_and_after, data_quality_section, order_section
+from .comparison_page import before_and_after, data_quality_section, order_section, worst_run
+from .preview_section import preview_section
 from .verdict_card import verdict_card
 
 PLANT = (
@@ -27,6 +29,7 @@ def save_diagnosis(
     rest_ratio: float,
     force: InputEstimation | None,
     proposals: Sequence[ProposedRun],
+    previews: Sequence[EffectPreview] = (),
 ) -> None:
     """Write the page of a diagnosis, completely or not at all."""
     found, fit = validated.diagnosis, fit_name(validated)
@@ -37,6 +40,7 @@ def save_diagnosis(
         Section("verdict", "Verdict", [verdict_card(validated, proposals), *rest]),
         data_quality_section(validated.remarks),
         before_and_after(validated.before, validated.best, fit),
+        *preview_section(previews, validated.before, worst_run(validated.before), fitted=True),
     ]
     if correlations:
         clear = any(one.share > CORRELATION.min_share for one in correlations)

@@ -1,6 +1,11 @@
-"""What each effect means, in two sentences, and a drawing of it."""
+"""What each effect means, in two sentences, a drawing of it, and its parameters in words."""
 
+from collections.abc import Mapping
+
+from comprope.quantities import quantities
 from comprope.rope.effects import INSTRUMENT, REGISTRY
+
+from ..data.runs import Channel
 
 MEANINGS = {
     "air_drag": (
@@ -116,3 +121,17 @@ def drawing(effect: str) -> str:
         f'<g fill="none" stroke="var(--ink)" stroke-width="1.5">{_ROPE}</g>'
         f'<g fill="none" stroke="var(--measured)" stroke-width="2.5" stroke-linecap="round">{_DETAILS.get(effect, "")}</g></svg>'
     )
+
+
+def parameter_label(effect: str, name: str) -> str:
+    """A parameter of an effect in words; that of a fault of an instrument names its channel."""
+    return f"{effect.removeprefix('sensor_')} of {name}" if effect not in REGISTRY else name.replace("_", " ")
+
+
+def parameter_unit(channels: Mapping[str, Channel], effect: str, name: str) -> str:
+    """The SI unit of a parameter of an effect; that of a fault of an instrument depends on its channel."""
+    if effect in REGISTRY:
+        return next(one.unit for one in quantities(REGISTRY[effect]) if one.name == name)
+    quantity = channels[name].quantity
+    shown = {"sheave_angular_velocity": "rad/s"}.get(quantity, "m" if "displacement" in quantity else "N")
+    return {"sensor_gain": "1", "sensor_delay": "s", "sensor_drift": f"{shown}/s"}.get(effect, shown)

@@ -27,12 +27,16 @@ def number(value: float | None) -> str:
 
 def in_handy_unit(unit: str, *values: float) -> tuple[str, ...]:
     """Values [SI unit] as texts of three digits in one handy unit: millimetres, milliseconds, kilonewtons."""
-    size = max(map(abs, values))
-    factor, shown = next(
+    factor, shown = handy_unit(unit, max(map(abs, values)))
+    return tuple(f"{number(value * factor)} {shown}".strip() for value in values)
+
+
+def handy_unit(unit: str, size: float) -> tuple[float, str]:
+    """Factor and name of the handy unit for values [SI unit] up to this size; no name for a pure number."""
+    return next(
         ((by, name) for of, least, most, by, name in HANDY_UNITS if of == unit and least <= size < most),
         (1.0, "" if unit == "1" else unit.replace(".", "·")),
     )
-    return tuple(f"{number(value * factor)} {shown}".strip() for value in values)
 
 
 def listed_words(words: Sequence[str]) -> str:

@@ -12,7 +12,7 @@ from ..diagnosis.experiment_design import ProposedRun
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, effects_of, full_name, ranking, reduced_chi_square
 from ..estimation.parameter_estimates import Estimate, effect_estimates, standard_error_scale
 from ..settings import VERDICT
-from .effect_descriptions import drawing, meaning
+from .effect_descriptions import drawing, meaning, parameter_label, parameter_unit
 from .formatting import in_handy_unit, listed_words, percent, probability
 
 KINDS = {
@@ -77,20 +77,11 @@ def _values(found: Diagnosis) -> list[tuple[str, str, str]]:
 
 def _value(found: Diagnosis, key: str, one: Estimate) -> tuple[str, str, str]:
     _, effect, name = key.split(".", 2)
-    unit = _unit(found, effect, name)
+    unit = parameter_unit(found.campaign.channels, effect, name)
     value, low, high = in_handy_unit(unit, one.value, one.low, one.high)
-    label = f"{effect.removeprefix('sensor_')} of {name}" if effect not in REGISTRY else name.replace("_", " ")
+    label = parameter_label(effect, name)
     interval = f"95 %: {low} to {high}" if one.standard_error > 0.0 else "not fitted"
     return label, value, interval
-
-
-def _unit(found: Diagnosis, effect: str, name: str) -> str:
-    """The SI unit of a parameter of an effect; that of a fault of an instrument depends on its channel."""
-    if effect in REGISTRY:
-        return next(one.unit for one in quantities(REGISTRY[effect]) if one.name == name)
-    quantity = found.campaign.channels[name].quantity
-    shown = {"sheave_angular_velocity": "rad/s"}.get(quantity, "m" if "displacement" in quantity else "N")
-    return {"sensor_gain": "1", "sensor_delay": "s", "sensor_drift": f"{shown}/s"}.get(effect, shown)
 
 
 def _error(validated: ValidatedDiagnosis) -> str:

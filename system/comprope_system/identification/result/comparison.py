@@ -11,16 +11,21 @@ from ...report.result import Result
 from ..comparison.compare import Comparison, RunComparison
 from ..comparison.largest_error import LargestError, largest_error
 from ..data.campaign import Campaign
+from ..preview.effect_preview import EffectPreview
 from ..reporting import sentences, tables
 from ..reporting.formatting import listed, paragraphs, text_table, wrapped
 
 
 @dataclass(frozen=True, repr=False)
 class ComparisonResult(Result):
-    """The model against the measurements of a campaign: `comparison` with all series, `remarks` on the quality of the data."""
+    """The model against the measurements of a campaign: `comparison` with all series, `remarks` on the quality of the data.
+
+    `previews` are those of the effects that the model has, if they were asked for.
+    """
 
     comparison: Comparison
     remarks: tuple[str, ...]
+    previews: tuple[EffectPreview, ...] = ()
 
     @property
     def campaign(self) -> Campaign:
@@ -92,4 +97,4 @@ class ComparisonResult(Result):
         """Write a page with a table of errors and the curves of every run, completely or not at all."""
         from ..reporting.comparison_page import save_comparison
 
-        save_comparison(Path(path), self.comparison, self.remarks)
+        save_comparison(Path(path), self.comparison, self.remarks, self.previews)

@@ -12,6 +12,7 @@ from ..data.campaign import Campaign
 from ..diagnosis.experiment_design import ProposedRun
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, plant, ranking, to_json
 from ..estimation.parameter_estimates import Estimate
+from ..preview.effect_preview import EffectPreview
 from ..reporting import sentences, tables
 from ..reporting.formatting import listed, paragraphs, text_table, wrapped
 from ..reporting.verdict_card import next_command
@@ -28,6 +29,7 @@ class DiagnosisResult(Result):
     `validated` has the fits and their comparisons with all runs. `correlations` say what the residual of the refitted model
     correlates with, `rest_ratio` is its RMS at rest over that of the whole, `residual_force` the force that would explain it,
     estimated for an unknown effect only. `next_runs` are runs to measure, the most discriminating first, if one more is needed.
+    `previews` are those of the best fit and its rivals, if they were asked for.
     """
 
     validated: ValidatedDiagnosis
@@ -35,6 +37,7 @@ class DiagnosisResult(Result):
     rest_ratio: float
     residual_force: InputEstimation | None
     next_runs: tuple[ProposedRun, ...]
+    previews: tuple[EffectPreview, ...] = ()
 
     @property
     def campaign(self) -> Campaign:
@@ -127,5 +130,6 @@ class DiagnosisResult(Result):
         from ..reporting.diagnosis_page import save_diagnosis
 
         save_diagnosis(
-            Path(path), self.validated, self.correlations, self.rest_ratio, self.residual_force, self.next_runs
-        )
+            Path(path), self.validated, self.correlations, self.rest_ratio, self.residual_force, self.next_runs,
+            self.previews,
+        )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Constants of the comparison with measurements, of messages about data quality, and of model updating."""
+"""Constants of the comparison with measurements, of messages about data quality, of model updating, and of previews."""
 
 from dataclasses import dataclass
 
@@ -60,5 +60,22 @@ class ModelUpdating:
     max_effects: int = setting(4, "1", "most effects that `comprope improve` adds", JUDGEMENT)
 
 
+@dataclass(frozen=True)
+class Preview:
+    """Previews of effects, interpolated between replays."""
+
+    reach: tuple[float, ...] = setting(
+        (0.0, 0.5, 1.0, 1.5), "present size", "nodes at which an effect is replayed",
+        "benchmarks/preview.py: within half a point of NRMSE",
+    )
+    reach_at_limit: tuple[float, ...] = setting(
+        (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0), "present size", "nodes of a parameter that may not be larger", JUDGEMENT
+    )
+    max_sliders: int = setting(2, "1", "most parameters that are moved at once", "the mixed part is known for two")
+    least_coefficient: float = setting(0.05, "typical size", "size below which a parameter stays as it is", JUDGEMENT)
+    max_rivals: int = setting(2, "1", "rivals of the verdict with a preview", "size of the page")
+    rival_factor: float = setting(4.0, "1", "chi-square over the least, up to which a fit is a rival", "twice the residual")
+
+
 COMPARISON, PAIRED_RECORDS, CLOCK_OFFSET = Comparison(), PairedRecords(), ClockOffset()
-DATA_QUALITY, MODEL_UPDATING = DataQuality(), ModelUpdating()
+DATA_QUALITY, MODEL_UPDATING, PREVIEW = DataQuality(), ModelUpdating(), Preview()

@@ -1,0 +1,73 @@
+"""The section of a page in which the parameters of effects are moved by hand, and curves and errors follow."""
+
+from collections.abc import Sequence
+
+from ...report.page import Section
+from ...report.preview import Preview, PreviewEffect, PreviewPanel, PreviewRun, PreviewSlider
+from ..comparison.compare import Comparison
+from ..data.runs import Run
+from ..prediction.replay import relative_to_rest
+from ..preview.effect_preview import EffectPreview
+from ..preview.sliders import Slider
+from .effect_descriptions import parameter_label, parameter_unit
+from .formatting import handy_unit
+from .run_curves import noise_spans, phase_spans
+
+TITLE = "Try it: move the effect and watch the error"
+CAPTION = (
+    "Interpolated between simulations at four values of each parameter, with their derivatives; the errors are of all samples. "
+    "In the bars: blue the error now, grey the model as given, green noise alone. {plant}"
+)
+PLANT_FITTED = "Plant parameters are those fitted with each effect."
+PLANT_GIVEN = "Plant parameters are those of the model file."
+
+
+def preview_section(previews: Sequence[EffectPreview], given: Comparison, first: str, *, fitted: bool) -> list[Section]:
+    """The section, or none without previews. `given` is the model as it is; of the runs, `first` is shown at once."""
+    if not previews:
+        return []
+    errors = {
+        "fit": (given.fit_nrmse, given.noise_nrmse("fit")),
+        "validate": (given.validate_nrmse, given.noise_nrmse("validate")),
+    }
+    shown = Preview(
+        "preview", [preview_effect_block(one, given, first) for one in previews], errors,
+        CAPTION.format(plant=PLANT_FITTED if fitted else PLANT_GIVEN),
+    )  # fmt: skip
+    return [Section("try", TITLE, [shown])]
+
+
+def preview_effect_block(one: EffectPreview, given: Comparison, first: str) -> PreviewEffect:
+    """An effect as the page shows it: parameters in handy units, channels in their own."""
+    units = [_unit(one, slider) for slider in one.sliders]
+    sliders = [
+        PreviewSlider(parameter_label(*slider.key.split(".", 2)[1:]), name, [factor * x for x in slider.nodes], slider.centre)
+        for slider, (factor, name) in zip(one.sliders, units, strict=True)
+    ]
+    runs = [_run(one, given, run, [factor for factor, _ in units], run.file == first) for run in one.campaign.runs]
+    return PreviewEffect(one.name, sliders, runs)
+
+
+def _unit(one: EffectPreview, slider: Slider) -> tuple[float, str]:
+    """Factor and name of a handy unit of a slider."""
+    _, effect, name = slider.key.split(".", 2)
+    return handy_unit(parameter_unit(one.campaign.channels, effect, name), max(map(abs, slider.nodes)))
+
+
+def _run(one: EffectPreview, given: Comparison, run: Run, factors: Sequence[float], shown: bool) -> PreviewRun:
+    """The channels of a run that hold enough to be compared."""
+    measured = relative_to_rest(run.values, run, one.campaign.channels)
+    compared = next(each for each in given.runs if each.file == run.file)
+    panels = []
+    for channel in (each for each in compared.channels if len(each.time)):
+        column, scale = channel.column, channel.channel.scale
+        data = one.data[run.file, column] / scale
+        for k, factor in enumerate(factors, 1):
+            data[k :: 1 + len(factors)] /= factor
+        # A derivative by a parameter in other units is smaller by their factor; so are its rows in the form.
+        sizes = [1.0, *(1.0 / factor for factor in factors)] * (len(data) // (1 + len(factors)))
+        form = one.forms.get((run.file, column))
+        scaled = None if form is None else form * [[a * b for a in sizes] for b in sizes]
+        noise = noise_spans(given, run, channel)
+        panels.append(PreviewPanel(column, channel.channel.unit, run.time, measured[column] / scale, data, scaled, noise))
+    return PreviewRun(run.file, run.role, panels, phase_spans(run), shown)
