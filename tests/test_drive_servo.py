@@ -4,7 +4,14 @@ import control
 import numpy as np
 import pytest
 
-from comprope.drive.hoist_dynamics import (
+from comprope.drive.hoist_dynamics import lumped_hoist, moving_mass, state_space
+from comprope.drive.kernels import design, hoist, matrices, stepping
+from comprope.drive.kernels.arguments import (
+    INPUT_GAIN,
+    INTEGRAL,
+    MATRIX,
+    ROW,
+    SERVO,
     T_C,
     T_W,
     V_C,
@@ -13,19 +20,26 @@ from comprope.drive.hoist_dynamics import (
     X_C,
     X_W,
     S,
-    holding_force,
-    lumped_hoist,
-    moving_mass,
-    state_space,
 )
+from comprope.drive.kernels.parameter_vector import vector
 from comprope.drive.parameters import Drive, Plant, Servo, Shaft
 from comprope.drive.scheduled_plant import scheduled_plant
-from comprope.drive.servo_control import continuous_speed_control, design_servo, sampled_speed_control
+from comprope.drive.servo_control import continuous_speed_control, sampled_speed_control
+from comprope.drive.simulator import python_control_design
 from comprope.drive.stability_margins import margins, open_loop, unstable_positions
-from comprope.drive.trajectory.s_curve import TrajectoryPoint
+from comprope.kernels.kernel_linking import uncompiled
 
 DRIVE = Drive()
 POSITIONS = [0.0, 10.0, 25.0, 50.0]
+KERNELS = uncompiled(hoist, matrices, design, stepping)
+
+
+def gains() -> np.ndarray:
+    return python_control_design(DRIVE).gains
+
+
+def force_at_rest(position: float, car_pull: float = 0.0, counterweight_pull: float = 0.0) -> float:
+    return KERNELS.force_at_rest(vector(DRIVE), position, car_pull, counterweight_pull)
 
 
 @pytest.mark.parametrize("position", POSITIONS)
@@ -45,7 +59,7 @@ def test_the_model_rests_wherever_the_holding_force_holds_it(position: float) ->
     x[X_W] = -way
     half = 0.5 * DRIVE.plant.rope_mass_per_length * DRIVE.shaft.gravity * way  # what each side's mean tension has lost, gained
     x[T_C], x[T_W] = -half, half
-    force = holding_force(DRIVE, position + way, 0.0, 0.0) - holding_force(DRIVE, position, 0.0, 0.0)
+    force = force_at_rest(position + way) - force_at_rest(position)
     assert hoist.A @ x + hoist.B @ [force, 0.0, 0.0] == pytest.approx(np.zeros(8), abs=1e-12)
 
 
@@ -64,7 +78,7 @@ def test_a_steady_trip_shifts_the_weight_of_the_rope_that_runs_over(position: fl
 
 def test_holding_force_weighs_all_that_hangs() -> None:
     ropes = 2.4 * 9.81 * (54.0 - 4.0)
-    assert holding_force(DRIVE, 0.0, 1000.0, 700.0) == pytest.approx((2000.0 - 2300.0) * 9.81 + ropes + 300.0)
+    assert force_at_rest(0.0, 1000.0, 700.0) == pytest.approx((2000.0 - 2300.0) * 9.81 + ropes + 300.0)
 
 
 def test_car_swings_on_its_rope_at_the_frequency_of_spring_and_mass() -> None:
@@ -103,27 +117,27 @@ def test_speed_control_places_the_poles_on_rigid_ropes() -> None:
 
 
 def test_the_law_is_the_sampled_speed_control() -> None:
-    controller, errors, integral, forces = design_servo(DRIVE), [0.1, -0.02, 0.05, 0.0, 0.3], 0.0, []
-    for error in errors:
-        force, integral = controller.force(integral, TrajectoryPoint(0.0, error), 0.0, 0.0, (-1e9, 1e9))
-        forces.append(force)
+    errors, servo = [0.1, -0.02, 0.05, 0.0, 0.3], [0.0] * SERVO
+    forces = [KERNELS.servo_force(servo, gains(), error, 0.0, -1e9, 1e9) for error in errors]
     response = control.forced_response(sampled_speed_control(DRIVE), None, errors)
     assert forces == pytest.approx(list(response.outputs), rel=1e-12)
 
 
 def test_the_integral_waits_while_the_motor_is_at_its_limit() -> None:
-    controller = design_servo(DRIVE)
-    assert controller.force(0.5, TrajectoryPoint(0.0, 1.0), 0.0, 0.0, (-10.0, 10.0)) == (10.0, 0.5)
-    _, integral = controller.force(0.5, TrajectoryPoint(0.0, -1.0), 0.0, 0.0, (-1e9, 1e9))
-    assert integral < 0.5
+    servo = [0.5, *[0.0] * (SERVO - 1)]
+    assert KERNELS.servo_force(servo, gains(), 1.0, 0.0, -10.0, 10.0) == 10.0
+    assert servo[INTEGRAL] == 0.5
+    KERNELS.servo_force(servo, gains(), -1.0, 0.0, -1e9, 1e9)
+    assert servo[INTEGRAL] < 0.5
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_an_error_that_takes_the_motor_off_its_limit_is_integrated(sense: float) -> None:
     """Else the integral that holds the motor at its limit would stay where it is, and the car would run past its landing."""
-    controller, error, wound_up = design_servo(DRIVE), -0.01, 1e3
-    found = controller.force(sense * wound_up, TrajectoryPoint(0.0, sense * error), 0.0, 0.0, (-10.0, 10.0))
-    assert found == (sense * 10.0, pytest.approx(sense * (wound_up + controller.speed.input_gain * error), rel=1e-15))
+    error, wound_up = -0.01, 1e3
+    servo = [sense * wound_up, *[0.0] * (SERVO - 1)]
+    assert KERNELS.servo_force(servo, gains(), sense * error, 0.0, -10.0, 10.0) == sense * 10.0
+    assert servo[INTEGRAL] == pytest.approx(sense * (wound_up + gains()[INPUT_GAIN] * error), rel=1e-15)
 
 
 @pytest.mark.parametrize("position", POSITIONS)
@@ -159,14 +173,14 @@ def test_wild_gains_are_found_out() -> None:
 
 
 def test_cells_step_like_python_control_and_divide_exactly() -> None:
-    plant = scheduled_plant(DRIVE)
-    cell = plant.operating_point(0.0)
+    plant, work = scheduled_plant(DRIVE), np.zeros(4 * MATRIX + ROW)
     sampled = control.sample_system(state_space(DRIVE, 0.0), DRIVE.servo.sample_period, method="zoh")
     full = np.concatenate([np.random.default_rng(1).normal(size=8), [100.0, 20.0, -30.0]])
     whole, parts = full.copy(), full.copy()
-    plant.advance_period(cell, whole)
+    KERNELS.apply_matrix(plant.step_matrices[0].ravel(), 0, whole, work)
     for share in (0.3, 0.0001, 0.6999):
-        plant.advance(cell, parts, share * DRIVE.servo.sample_period)
+        KERNELS.advance_matrix(plant.rate_matrices[0].ravel(), 0, share * DRIVE.servo.sample_period, work)
+        KERNELS.apply_matrix(work, MATRIX, parts, work)
     assert whole[:8] == pytest.approx(sampled.A @ full[:8] + sampled.B @ full[8:], rel=1e-9)
     assert parts == pytest.approx(whole, rel=1e-9)
 

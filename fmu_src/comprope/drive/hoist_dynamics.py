@@ -28,11 +28,11 @@ from dataclasses import dataclass
 import control
 import numpy as np
 
+from .kernels.arguments import T_C, T_W, V_C, V_S, V_W, X_C, X_W, S
 from .parameters import Drive
 
 STATES = ("s", "x_c", "x_w", "v_s", "v_c", "v_w", "T_c", "T_w")
 INPUTS = ("f", "F_c", "F_w")
-S, X_C, X_W, V_S, V_C, V_W, T_C, T_W = range(8)
 
 
 @dataclass(frozen=True)
@@ -64,13 +64,6 @@ def moving_mass(drive: Drive) -> float:
     """Total moving mass [kg], with the inertia of the machine as mass at the rim; independent of the car position."""
     parts = lumped_hoist(drive, 0.0)
     return parts.sheave + parts.car + parts.counterweight
-
-
-def holding_force(drive: Drive, position: float, car_pull: float, counterweight_pull: float) -> float:
-    """Force at the rim [N] that holds the car at `position` [m]; the pulls [N] are those of all compensation ropes."""
-    parts, plant, gravity = lumped_hoist(drive, position), drive.plant, drive.shaft.gravity
-    ropes = plant.rope_mass_per_length * (parts.car_rope - parts.counterweight_rope)
-    return gravity * (plant.car_mass - plant.counterweight_mass + ropes) + car_pull - counterweight_pull
 
 
 def state_space(drive: Drive, position: float) -> control.StateSpace:

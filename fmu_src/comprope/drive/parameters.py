@@ -4,15 +4,25 @@ The defaults are a 50 m test tower at 150 m/min (2.5 m/s) and 0.8 m/s2, machine 
 ropes 1:1, and two compensation ropes that weigh as much per metre as all hoist ropes together.
 """
 
-from itertools import accumulate
-
 from pydantic import model_validator
 
+from ..kernels.kernel_linking import uncompiled
+from ..kernels.status import MESSAGE_VALUES, SUCCESS, sentence
 from ..quantities import Component, quantity
+from . import parameter_checks
+from .parameter_checks import INTERVALS
+from .status import COMPONENT_TEXTS, MESSAGES
 
-SHORTEST_SMOOTHING = 0.01  # s, shortest moving average; below it rounding errors dominate
-INTERVALS = 20  # intervals of the travel time, for free-form trips
-FINAL_SPEED_TOLERANCE = 1e-9  # accepted final speed of a free-form trip, relative to largest acceleration times travel time
+_CHECKS = uncompiled(parameter_checks)
+
+
+def _require(check: str, *values: object) -> None:
+    """Raise `ValueError` with the sentence of a check of `parameter_checks` that these values fail."""
+    message = [0.0] * MESSAGE_VALUES
+    status = getattr(_CHECKS, check)(*values, message)
+    if status != SUCCESS:
+        text = sentence(MESSAGES, status, message)
+        raise ValueError(text.removeprefix(f"{COMPONENT_TEXTS[status][0]}: ") if status in COMPONENT_TEXTS else text)
 
 
 class Profile(Component):
@@ -25,8 +35,7 @@ class Profile(Component):
 
     @model_validator(mode="after")
     def _smoothing_is_not_too_short(self) -> "Profile":
-        if 0.0 < self.smoothing < SHORTEST_SMOOTHING:
-            raise ValueError(f"smoothing = {self.smoothing} s: accepted is 0 (none) or {SHORTEST_SMOOTHING} to 20 s")
+        _require("check_smoothing", self.smoothing)
         return self
 
 
@@ -66,12 +75,7 @@ class Curve(Component):
 
     @model_validator(mode="after")
     def _moves_forward_and_stops(self) -> "Curve":
-        shares = [getattr(self, name) for name in type(self).model_fields]
-        speeds = list(accumulate(shares))
-        if self.used and abs(speeds[-1]) > FINAL_SPEED_TOLERANCE * INTERVALS:
-            raise ValueError(f"the sum of a1 to a{INTERVALS - 1} is {speeds[-1]:.6g}: accepted is 0, so that the car stops")
-        if self.used and (min(speeds) < -FINAL_SPEED_TOLERANCE * INTERVALS or max(speeds) <= 0.0):
-            raise ValueError("a1, a1 + a2 and so on: no sum below 0 is accepted, so that the car never reverses")
+        _require("check_curve", [getattr(self, name) for name in type(self).model_fields], 0)
         return self
 
 
@@ -86,8 +90,7 @@ class Shaper(Component):
 
     @model_validator(mode="after")
     def _impulses_are_whole(self) -> "Shaper":
-        if self.impulses not in (1.0, 2.0, 3.0):
-            raise ValueError(f"impulses = {self.impulses}: accepted is 1, 2 or 3")
+        _require("check_impulses", self.impulses)
         return self
 
 
@@ -156,8 +159,5 @@ class Drive(Component):
 
     @model_validator(mode="after")
     def _stops_inside_the_shaft(self) -> "Drive":
-        stops = {"trip.start_position": self.trip.start_position, "trip.destination": self.trip.destination}
-        outside = [f"{name} = {value} m" for name, value in stops.items() if value > self.shaft.height]
-        if outside:
-            raise ValueError(f"{' and '.join(outside)}: accepted is 0 to shaft.height = {self.shaft.height} m")
+        _require("check_stops", self.trip.start_position, self.trip.destination, self.shaft.height)
         return self

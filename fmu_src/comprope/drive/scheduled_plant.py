@@ -4,46 +4,28 @@ From one operating point to the next the ratio of the rope lengths, and with it 
 points are close together where a rope is short and far apart in the middle of a tall shaft.
 """
 
-from bisect import bisect
 from dataclasses import dataclass
 from functools import lru_cache
 
 import control
 import numpy as np
-from scipy.linalg import expm
 
-from .hoist_dynamics import STATES, state_space
+from .hoist_dynamics import state_space
+from .kernels.design import RATIO_STEP
 from .parameters import Drive
-
-_RATIO_STEP = 0.01  # change of the logarithm of the ratio of the rope lengths between operating points
-_N = len(STATES)
 
 
 @dataclass(frozen=True)
 class ScheduledPlant:
-    """Linearisations about operating points; point i is used up to the car position `boundaries[i]` [m].
+    """Linearisations about n operating points; point i is used up to the car position `boundaries[i]` [m], (n - 1,).
 
-    A vector (11,) contains the hoist's states followed by its inputs. `rate_matrices[i]` (8, 11) gives the derivatives of
-    the states, `step_matrices[i]` (8, 11) the states one sample period later.
+    `rate_matrices` (n, 8, 11) give the derivatives of the states from the states followed by the inputs, `step_matrices`
+    (n, 8, 11) the states one sample period later.
     """
 
-    boundaries: list[float]
-    rate_matrices: tuple[np.ndarray, ...]
-    step_matrices: tuple[np.ndarray, ...]
-
-    def operating_point(self, position: float) -> int:
-        """Index of the operating point for a car position [m]; the outermost points are used for all positions beyond them."""
-        return bisect(self.boundaries, position)
-
-    def advance_period(self, point: int, vector: np.ndarray) -> None:
-        """Advance the states in the vector (11,) by one sample period with constant inputs."""
-        vector[:_N] = self.step_matrices[point] @ vector
-
-    def advance(self, point: int, vector: np.ndarray, duration: float) -> None:
-        """Advance the states in the vector (11,) by `duration` [s] with constant inputs, exactly."""
-        square = np.zeros((vector.size, vector.size))
-        square[:_N] = duration * self.rate_matrices[point]
-        vector[:_N] = (expm(square) @ vector)[:_N]
+    boundaries: np.ndarray
+    rate_matrices: np.ndarray
+    step_matrices: np.ndarray
 
 
 def scheduled_plant(drive: Drive) -> ScheduledPlant:
@@ -57,14 +39,14 @@ def _scheduled_plant(drive: Drive) -> ScheduledPlant:
     hoists = [state_space(drive, float(x)) for x in centres]
     sampled = [control.sample_system(hoist, drive.servo.sample_period, method="zoh") for hoist in hoists]
     return ScheduledPlant(
-        list(0.5 * (centres[1:] + centres[:-1])),
-        tuple(np.hstack([hoist.A, hoist.B]) for hoist in hoists),
-        tuple(np.hstack([hoist.A, hoist.B]) for hoist in sampled),
+        0.5 * (centres[1:] + centres[:-1]),
+        np.array([np.hstack([hoist.A, hoist.B]) for hoist in hoists]),
+        np.array([np.hstack([hoist.A, hoist.B]) for hoist in sampled]),
     )
 
 
 def _operating_positions(headroom: float, height: float) -> np.ndarray:
     """Car positions at which ln((headroom + x)/(headroom + height - x)) is a multiple of the step, about x = height / 2."""
     end = np.log1p(height / headroom)
-    logs = np.linspace(-end, end, 2 * int(np.ceil(end / _RATIO_STEP)) + 1)
+    logs = np.linspace(-end, end, 2 * int(np.ceil(end / RATIO_STEP)) + 1)
     return (2.0 * headroom + height) / (1.0 + np.exp(-logs)) - headroom

@@ -15,7 +15,6 @@ import control
 
 from .hoist_dynamics import moving_mass
 from .parameters import Drive
-from .trajectory.s_curve import TrajectoryPoint
 
 
 @dataclass(frozen=True)
@@ -38,23 +37,6 @@ class ServoController:
     position_gain: float
     velocity_feedforward: float
     acceleration_feedforward: float  # N per m/s2
-
-    def force(
-        self, integral: float, reference: TrajectoryPoint, position: float, velocity: float, limits: tuple[float, float]
-    ) -> tuple[float, float]:
-        """The motor's force [N] and the next integral, from the encoder's `position` [m] and `velocity` [m/s].
-
-        The force is limited to `limits`; while it is limited, an error of the same sign is not integrated (anti-windup).
-        """
-        wanted = self.position_gain * (reference.position - position) + self.velocity_feedforward * reference.velocity
-        error = wanted - velocity
-        force = (
-            self.speed.gain * error + self.speed.output_gain * integral + self.acceleration_feedforward * reference.acceleration
-        )
-        limited = min(max(force, limits[0]), limits[1])
-        if (force - limited) * error > 0.0:
-            return limited, integral
-        return limited, integral + self.speed.input_gain * error
 
 
 def continuous_speed_control(drive: Drive) -> control.StateSpace:

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import control
 import numpy as np
 
-from .hoist_dynamics import T_C, T_W, V_C, V_S, V_W, S, state_space
+from .hoist_dynamics import state_space
+from .kernels.arguments import T_C, T_W, V_C, V_S, V_W, S
 from .parameters import Drive
 from .servo_control import sampled_speed_control
 

@@ -1,7 +1,7 @@
 """Kernels of many modules in one namespace, in which they call each other and the effects of a model."""
 
 import types
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from . import jit
@@ -24,12 +24,17 @@ def merged(modules: Iterable[types.ModuleType], replacing: Mapping[str, Any]) ->
     return names
 
 
-def linked(names: Mapping[str, Any], module: str) -> dict[str, Any]:
+def linked(names: Mapping[str, Any], module: str, compile: Callable[..., Any] = jit.kernel) -> dict[str, Any]:
     """A copy of a namespace in which every kernel calls the kernels of that copy."""
     copy = {key: value for key, value in names.items() if not key.startswith("__")} | {"__name__": module}
     for key, value in names.items():
         function = getattr(value, "py_func", value)
         compilable = value is not function or (jit.PURE and isinstance(function, types.FunctionType))
         if compilable and function.__module__ not in (jit.__name__, module):
-            copy[key] = jit.kernel(types.FunctionType(function.__code__, copy, function.__name__))
+            copy[key] = compile(types.FunctionType(function.__code__, copy, function.__name__))
     return copy
+
+
+def uncompiled(*modules: types.ModuleType) -> types.SimpleNamespace:
+    """The kernels of modules as plain functions of Python, which also take lists: for few calls, without a compiler."""
+    return types.SimpleNamespace(**linked(merged(modules, {}), "comprope_uncompiled", compile=lambda function: function))

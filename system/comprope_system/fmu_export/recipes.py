@@ -48,7 +48,7 @@ def rope_recipe(model: RopeModel) -> Recipe:
 
 def drive_recipe() -> Recipe:
     """The drive."""
-    return Recipe(drive_interface(), ("drive",), DRIVE_ENTRY)
+    return Recipe(drive_interface(), ("kernels", "drive"), DRIVE_ENTRY)
 
 
 def origin() -> Origin:

@@ -12,22 +12,21 @@ single impulse at its period, and at most V over a wider band (exact without dam
 weights are positive and sum to one: shaping exceeds no limit of speed, acceleration or jerk.
 """
 
-from math import exp, pi, sqrt
-
+from ...kernels.kernel_linking import uncompiled
+from ..kernels import reference
+from ..kernels.arguments import DELAYS, TRIP, WEIGHTS
 from ..parameters import Shaper
 
 Impulses = tuple[tuple[float, float], ...]  # delays [s] and weights
 NO_SHAPING: Impulses = ((0.0, 1.0),)
+_KERNELS = uncompiled(reference)
 
 
 def impulses(shaper: Shaper, stops: tuple[float, float], height: float) -> Impulses:
     """Delays [s] and weights of the shaper for a trip between two heights [m] in a shaft of `height` [m]."""
-    count = int(shaper.impulses)
-    root = sqrt(1.0 - shaper.damping**2)
-    fall, half = exp(-shaper.damping * pi / root), 0.5 * design_period(shaper, stops, height) / root
-    V = shaper.tolerance
-    weights = {1: (1.0,), 2: (1.0, fall), 3: (1.0 + V, 2.0 * (1.0 - V) * fall, (1.0 + V) * fall**2)}[count]
-    return tuple((k * half, weight / sum(weights)) for k, weight in enumerate(weights))
+    trip, count = [0.0] * TRIP, int(shaper.impulses)
+    _KERNELS.set_impulses(trip, shaper.impulses, shaper.damping, shaper.tolerance, design_period(shaper, stops, height))
+    return tuple(zip(trip[DELAYS : DELAYS + count], trip[WEIGHTS : WEIGHTS + count], strict=True))
 
 
 def design_period(shaper: Shaper, stops: tuple[float, float], height: float) -> float:
@@ -35,5 +34,4 @@ def design_period(shaper: Shaper, stops: tuple[float, float], height: float) -> 
 
     The longest period is that of the longer side, hence symmetric about the middle.
     """
-    share = abs(stops[0] + stops[1] - height) / height
-    return shaper.period_middle + share * (shaper.period_landing - shaper.period_middle)
+    return float(_KERNELS.period_of_trip(*stops, height, shaper.period_landing, shaper.period_middle))

@@ -8,11 +8,17 @@ Neither a moving average nor an input shaper exceeds a limit that the trip meets
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
+from ...kernels.kernel_linking import uncompiled
+from ..kernels import free_curve, reference, s_curve
+from ..kernels.arguments import DELAYS, IMPULSES, SMOOTHING, TRIP, WEIGHTS
 from ..parameters import Drive
 from .free_curve import FreeCurve, plan_free_curve
 from .input_shaper import NO_SHAPING, Impulses, impulses
 from .s_curve import SCurve, TrajectoryPoint, plan_s_curve
+
+_KERNELS = uncompiled(s_curve, free_curve, reference)
 
 
 @dataclass(frozen=True)
@@ -48,32 +54,18 @@ class ReferenceTrajectory:
         """When the reference is at rest at the destination [s]."""
         return self.unshaped.start_time + self.duration
 
+    @cached_property
+    def _numbers(self) -> tuple[float, ...]:
+        """The trip as kernels have it."""
+        trip = [*self.unshaped.numbers, *[0.0] * (TRIP - len(self.unshaped.numbers))]
+        trip[SMOOTHING], trip[IMPULSES] = self.smoothing, float(len(self.impulses))
+        for k, (delay, weight) in enumerate(self.impulses):
+            trip[DELAYS + k], trip[WEIGHTS + k] = delay, weight
+        return tuple(trip)
+
     def at(self, time: float) -> TrajectoryPoint:
         """The reference at `time` [s]; at rest before the trip begins and after it ends."""
-        if time >= self.end_time:
-            return TrajectoryPoint(self.destination)
-        if len(self.impulses) == 1:
-            return self._smoothed(time)
-        delayed = [(weight, self._smoothed(time - delay)) for delay, weight in self.impulses]
-        return TrajectoryPoint(
-            self.origin + sum(weight * (one.position - self.origin) for weight, one in delayed),
-            sum(weight * one.velocity for weight, one in delayed),
-            sum(weight * one.acceleration for weight, one in delayed),
-            sum(weight * one.jerk for weight, one in delayed),
-        )
-
-    def _smoothed(self, time: float) -> TrajectoryPoint:
-        S = self.smoothing
-        now = self.unshaped.at(time)
-        if S == 0.0:
-            return now
-        then = self.unshaped.at(time - S)
-        return TrajectoryPoint(
-            self.origin + (self.unshaped.displacement_integral(time) - self.unshaped.displacement_integral(time - S)) / S,
-            (now.position - then.position) / S,
-            (now.velocity - then.velocity) / S,
-            (now.acceleration - then.acceleration) / S,
-        )
+        return TrajectoryPoint(*_KERNELS.reference_at(self._numbers, time))
 
 
 def reference_trajectory(drive: Drive, trip: SCurve) -> ReferenceTrajectory:

@@ -7,8 +7,14 @@ a trip ends exactly at its destination.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
+from ...kernels.kernel_linking import uncompiled
+from ..kernels import s_curve
+from ..kernels.arguments import CRUISE, JERK, PLATEAU, RAMP, TRIP
 from ..parameters import Profile
+
+_KERNELS = uncompiled(s_curve)
 
 
 @dataclass(frozen=True)
@@ -46,54 +52,20 @@ class SCurve:
         """When the reference is at rest at the destination [s]."""
         return self.start_time + self.duration
 
+    @cached_property
+    def numbers(self) -> tuple[float, ...]:
+        """The trip as kernels have it, up to its shaping."""
+        return (
+            self.start_time, self.origin, self.destination, self.duration, self.jerk, self.ramp, self.plateau, self.cruise, 0.0,
+        )  # fmt: skip
+
     def at(self, time: float) -> TrajectoryPoint:
         """The reference at `time` [s]; at rest before the trip begins and after it ends."""
-        elapsed, left = time - self.start_time, self.end_time - time
-        if elapsed <= 0.0 and left > 0.0:
-            return TrajectoryPoint(self.origin)
-        if left <= 0.0:
-            return TrajectoryPoint(self.destination)
-        if elapsed <= left:
-            displacement, velocity, acceleration, jerk = self._first_half(elapsed)
-            return TrajectoryPoint(self.origin + displacement, velocity, acceleration, jerk)
-        displacement, velocity, acceleration, jerk = self._first_half(left)
-        return TrajectoryPoint(self.destination - displacement, velocity, -acceleration, jerk)
+        return TrajectoryPoint(*_KERNELS.s_curve_at(self.numbers, time))
 
     def displacement_integral(self, time: float) -> float:
         """The integral of the distance from the origin over time, up to `time` [m s]: what a moving average needs."""
-        elapsed, left = time - self.start_time, self.end_time - time
-        if elapsed <= 0.0:
-            return 0.0
-        if elapsed <= left:
-            return self._first_half_integral(elapsed)
-        return (self.destination - self.origin) * (elapsed - 0.5 * self.duration) + self._first_half_integral(max(left, 0.0))
-
-    def _first_half_integral(self, t: float) -> float:
-        """The integral of the distance from the start to `t` after it, up to half of the duration."""
-        j, ramp, plateau = self.jerk, self.ramp, self.plateau
-        if t < ramp:
-            return j * t**4 / 24.0
-        a, integral = j * ramp, j * ramp**4 / 24.0
-        u = min(t - ramp, plateau)
-        integral += a * (ramp**2 * u / 6.0 + ramp * u**2 / 4.0 + u**3 / 6.0)
-        v, u = a * (ramp + plateau), max(t - ramp - plateau, 0.0)
-        return integral + v * (u**2 / 2.0 + plateau * u / 2.0) + j * (ramp**4 - max(ramp - u, 0.0) ** 4) / 24.0
-
-    def _first_half(self, t: float) -> tuple[float, float, float, float]:
-        """Displacement, velocity, acceleration and jerk at `t` after the start, up to half of the duration."""
-        j, ramp, plateau = self.jerk, self.ramp, self.plateau
-        if t < ramp:
-            return j * t**3 / 6.0, j * t**2 / 2.0, j * t, j
-        a = j * ramp
-        t -= ramp
-        if t < plateau:
-            return a * (ramp**2 / 6.0 + ramp * t / 2.0 + t**2 / 2.0), a * (ramp / 2.0 + t), a, 0.0
-        v = a * (ramp + plateau)
-        until_speed = ramp - (t - plateau)  # the same ramp, seen from the moment at which speed is reached
-        displacement = v * (t - plateau / 2.0)
-        if until_speed > 0.0:
-            return displacement + j * until_speed**3 / 6.0, v - j * until_speed**2 / 2.0, j * until_speed, -j
-        return displacement, v, 0.0, 0.0
+        return float(_KERNELS.s_curve_integral(self.numbers, time))
 
 
 def plan_s_curve(profile: Profile, origin: float, destination: float, start_time: float) -> SCurve:
@@ -104,22 +76,6 @@ def plan_s_curve(profile: Profile, origin: float, destination: float, start_time
         plateau > 0:  a (plateau + ramp)(plateau + 2 ramp) = distance,  ramp = a / jerk
         plateau = 0:  2 jerk ramp^3 = distance
     """
-    distance = abs(destination - origin)
-    ramp, plateau, cruise = _phase_durations(distance, profile.speed, profile.acceleration, profile.jerk)
-    jerk = profile.jerk if destination >= origin else -profile.jerk
-    return SCurve(start_time, origin, destination, jerk, ramp, plateau, cruise)
-
-
-def _phase_durations(distance: float, speed: float, acceleration: float, jerk: float) -> tuple[float, float, float]:
-    """Durations of jerk, full acceleration and full speed [s]."""
-    to_acceleration = acceleration / jerk
-    ramp = min(to_acceleration, (speed / jerk) ** 0.5)
-    plateau = max(0.0, speed / acceleration - to_acceleration)
-    needed = speed * (2.0 * ramp + plateau)  # to reach the speed and to stop again
-    if distance >= needed:
-        return ramp, plateau, (distance - needed) / speed
-    ramp = min(to_acceleration, (distance / (2.0 * jerk)) ** (1.0 / 3.0))
-    if ramp < to_acceleration:
-        return ramp, 0.0, 0.0
-    plateau = ((ramp**2 + 4.0 * distance / acceleration) ** 0.5 - 3.0 * ramp) / 2.0
-    return ramp, max(0.0, plateau), 0.0
+    trip = [0.0] * TRIP
+    _KERNELS.plan_s_curve_into(trip, start_time, origin, destination, profile.speed, profile.acceleration, profile.jerk)
+    return SCurve(start_time, origin, destination, trip[JERK], trip[RAMP], trip[PLATEAU], trip[CRUISE])

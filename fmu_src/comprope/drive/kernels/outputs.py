@@ -1,0 +1,26 @@
+"""The drive's outputs, in the order of their variables."""
+
+from ...kernels.jit import kernel
+from .arguments import BEGIN, FORCE, POINT, RATES, REALS, ROW, V_C, V_W, X_C, X_W, Design, Outputs, Parameters, S, State
+from .parameter_vector import HEIGHT, RADIUS, START_POSITION
+from .reference import reference_at, reference_end
+from .stepping import now, rest_force
+
+
+@kernel
+def evaluate_drive(parameters: Parameters, state: State, design: Design, outputs: Outputs) -> None:
+    """All outputs at the time reached."""
+    p, trip, vector, y = parameters.p, state.trip, state.vector, outputs.y
+    time, start, at = now(p, state.clock), p[START_POSITION], RATES * int(state.clock[POINT])
+    y[0], y[1] = start + vector[X_C], vector[V_C]
+    y[3], y[4] = p[HEIGHT] - start + vector[X_W], vector[V_W]
+    y[2], y[5] = 0.0, 0.0
+    for k in range(ROW):
+        y[2] += design.rates[at + ROW * V_C + k] * vector[k]
+        y[5] += design.rates[at + ROW * V_W + k] * vector[k]
+    y[6] = start + vector[S]
+    y[7] = p[RADIUS] * (rest_force(p, state.servo) + vector[FORCE])
+    y[8], y[9], y[10], _ = reference_at(trip, time)
+    end = reference_end(trip)
+    y[REALS] = 1.0 if trip[BEGIN] <= time < end else 0.0
+    y[REALS + 1] = 1.0 if time >= end else 0.0
