@@ -1,8 +1,8 @@
 """Build the FMUs: `python build_fmu.py` writes dist/CompensationRope.fmu and dist/ElevatorDrive.fmu.
 
-With `--native` it writes dist/CompensationRope_native.fmu as well, which needs no Python, and with `--fmi3` the same for
-FMI 3.0, dist/CompensationRope_native_fmi3.fmu; with `--ssp` dist/Elevator.ssp, drive and rope connected, with the native
-rope of FMI 2.0 if there is one. `comprope fmu` does the same from an installed package.
+With `--native` it writes dist/CompensationRope_native.fmu and dist/ElevatorDrive_native.fmu as well, which need no Python, and
+with `--fmi3` the same for FMI 3.0, named ..._native_fmi3.fmu; with `--ssp` dist/Elevator.ssp, drive and rope connected, the
+native ones of FMI 2.0 if there are any. `comprope fmu` does the same from an installed package.
 """
 
 import argparse
@@ -37,8 +37,8 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--sensors", type=int, metavar="N", help="number of displacement sensors; default: those of the model")
     parser.add_argument("--out", type=Path, default=ROOT / "dist", metavar="DIR", help="folder to write to (default: dist)")
     parser.add_argument("--ssp", action="store_true", help="drive and rope also as one system, connected")
-    parser.add_argument("--native", action="store_true", help="the rope also as an FMU that needs no Python")
-    parser.add_argument("--fmi3", action="store_true", help="the rope also as an FMU for FMI 3.0 that needs no Python")
+    parser.add_argument("--native", action="store_true", help="rope and drive also as FMUs that need no Python")
+    parser.add_argument("--fmi3", action="store_true", help="rope and drive also as FMUs for FMI 3.0 that need no Python")
     parser.add_argument("--allow-code", action="store_true", help="run the files of own effects that the model names")
     return parser.parse_args(arguments)
 

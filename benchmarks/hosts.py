@@ -20,7 +20,8 @@ from fmpy import read_model_description
 
 from comprope.native import linker
 from comprope.native.c_source import kernels_header, model_source
-from comprope.native.llvm_ir import kernels, sizes
+from comprope.native.llvm_ir import kernels
+from comprope.native.rope_component import rope_component
 from comprope.native.targets import TARGETS, machine_code
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
@@ -54,10 +55,10 @@ def run(command: list[str], line: int = -1) -> str:
 def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
     """Every scenario with the C sources compiled under sanitizers; the kernels are as in the FMU."""
     identity = model_source(tower(), SANITIZED, SANITIZED)
-    generated = {"kernels.h": kernels_header(tower(), sizes({})), "model.c": identity}
-    for name, content in (linker.c_sources() | {name: text.encode() for name, text in generated.items()}).items():
+    generated = {"kernels.h": kernels_header(rope_component(tower())), "model_variables.c": identity}
+    for name, content in (linker.c_sources("rope") | {name: text.encode() for name, text in generated.items()}).items():
         (stage / name).write_bytes(content)
-    (stage / "kernels.o").write_bytes(machine_code(kernels({}), TARGETS["linux"]))
+    (stage / "kernels.o").write_bytes(machine_code(kernels("rope", {}), TARGETS["linux"]))
     sources = sorted(str(path) for path in stage.glob("*.c"))
     options = ["gcc", *_SANITIZED, f"-I{stage}", f"-I{linker.HEADERS}"]
     binary, host = str(stage / "sanitized.so"), str(stage / "host")

@@ -55,6 +55,7 @@ DERIVATIVES = "test_sensitivity_step.py::test_derivatives_are_those_of_whole_run
 OUTPUTS, UNITS, CONSENT = "test_rope_outputs.py", "test_units_of_measurements.py", "test_consent.py"
 NOISY = "test_noise_model.py"
 WHITE, SCORES, CLOCK = "test_whitening.py", "test_model_score.py", "test_clock_offset.py"
+DESIGN = "test_drive_design.py"
 SERVO, DRIVEN, COURSE, TRIP = (f"test_drive_{name}.py" for name in ("servo", "simulator", "reference_trajectory", "s_curve"))
 STARTS = "test_fmi_initialization.py"
 FMI_RUN, FMI_INSTANCE, SWEEPS = "test_fmi_without_fmu.py", "test_fmi_instance.py", "test_sweep.py"
@@ -345,12 +346,12 @@ MUTANTS = [
     ),
     *mutants(
         "drive", DRIVE,
-        ("anti_windup_at_every_limit", "if (force - limited) * error > 0.0:", "if force != limited:", SERVO),
-        ("no_anti_windup", "if (force - limited) * error > 0.0:", "if False:", SERVO),
-        ("no_limit", "min(max(force, limits[0]), limits[1])", "force", SERVO),
-        ("position_gain_of_the_way_s_sign", "(reference.position - position)", "(reference.position + position)",
+        ("anti_windup_at_every_limit", "if (force - limited) * error <= 0.0:", "if force == limited:", SERVO),
+        ("no_anti_windup", "if (force - limited) * error <= 0.0:", "if True:", SERVO),
+        ("no_limit", "min(max(force, low), high)", "force", SERVO),
+        ("position_gain_of_the_way_s_sign", "(x - p[START_POSITION] - vector[S])", "(x - p[START_POSITION] + vector[S])",
          f"{DRIVEN}::test_the_simulator_answers_like_python_controls_closed_loop"),
-        ("feedforward_dropped", " + self.acceleration_feedforward * reference.acceleration", "",
+        ("feedforward_dropped", "ahead = design.gains[FEEDFORWARD] * a", "ahead = 0.0",
          f"{DRIVEN}::test_the_simulator_answers_like_python_controls_closed_loop"),
         ("damping_halved", "2.0 * drive.servo.speed_damping", "drive.servo.speed_damping", SERVO),
         ("integral_gain_of_the_bandwidth", "bandwidth**2 * mass", "bandwidth * mass", SERVO),
@@ -363,17 +364,22 @@ MUTANTS = [
         ("damping_of_one_side", "n_w = _row(T_W, 1.0) + drive.plant.rope_damping * counterweight_strain_rate",
          "n_w = _row(T_W, 1.0)", SERVO),
         ("ropes_pull_the_other_way", "+ car_pull - counterweight_pull", "- car_pull + counterweight_pull", SERVO),
-        ("one_compensation_rope", "drive.rope.count * inputs[name]", "inputs[name]",
+        ("one_compensation_rope", "servo[REST_CAR], servo[REST_COUNTERWEIGHT] = p[ROPES] * u[CAR_TENSION],",
+         "servo[REST_CAR], servo[REST_COUNTERWEIGHT] = u[CAR_TENSION],",
          f"{DRIVEN}::test_holding_torque_counts_every_compensation_rope"),
-        ("counterweight_of_the_car_s_height", "self._drive.shaft.height - self._start_position +", "self._start_position +",
+        ("counterweight_of_the_car_s_height", "p[HEIGHT] - start + vector[X_W]", "start + vector[X_W]",
          f"{DRIVEN}::test_nothing_moves_before_the_trip"),
+        ("taylor_without_its_factor", "R[w + k] / term", "R[w + k]", DESIGN),
+        ("boundary_at_the_next_point", "0.5 * (following + position)", "following", DESIGN),
+        ("tustin_without_its_half", "0.5 * p[SAMPLE_PERIOD] * integral", "p[SAMPLE_PERIOD] * integral", DESIGN),
+        ("growth_unweighted", "logarithm += weight * log(size)", "logarithm += log(size)", DESIGN),
         ("margin_of_the_other_side", "min(1.0 / gains[gains < 1.0]", "min(gains[gains < 1.0]",
          f"{SERVO}::test_gain_margins_are_where_stability_ends"),
-        ("way_of_the_ramp", "return j * t**3 / 6.0", "return j * t**3 / 3.0", TRIP),
-        ("shaper_of_a_whole_period", "0.5 * design_period", "design_period", COURSE),
-        ("last_share_of_the_shaper", "(1.0 + V) * fall**2", "(1.0 + V) * fall", COURSE),
-        ("smoothed_velocity", "(now.position - then.position) / S", "(now.position + then.position) / S", COURSE),
-        ("period_of_the_trip_s_start", "stops[0] + stops[1] - height", "2.0 * stops[0] - height", COURSE),
+        ("way_of_the_ramp", "return j * t * t * t / 6.0", "return j * t * t * t / 3.0", TRIP),
+        ("shaper_of_a_whole_period", "0.5 * period / root", "period / root", COURSE),
+        ("last_share_of_the_shaper", "(1.0 + tolerance) * (fall * fall)", "(1.0 + tolerance) * fall", COURSE),
+        ("smoothed_velocity", "(x - x0) / S", "(x + x0) / S", COURSE),
+        ("period_of_the_trip_s_start", "abs(origin + destination - height)", "abs(2.0 * origin - height)", COURSE),
     ),
     *mutants(
         "sweep", SWEEP,

@@ -1,4 +1,4 @@
-"""The rope's native FMU for this system, built once for a test run and kept by the content of its sources."""
+"""The native FMUs of rope and drive for this system, built once for a test run and kept by the content of its sources."""
 
 import hashlib
 from functools import cache
@@ -7,11 +7,14 @@ from pathlib import Path
 import pytest
 
 import comprope
+from comprope.drive.cosimulation import interface as drive_interface
 from comprope.errors import InputError
 from comprope.fmi.model_interface import ModelInterface
 from comprope.fmi.package import Origin
 from comprope.native import linker
+from comprope.native.drive_component import drive_component
 from comprope.native.package import FMI_VERSIONS, build_native
+from comprope.native.rope_component import rope_component
 from comprope.rope.model_file import load
 from comprope.rope.simulator.cosimulation import interface
 from comprope.user_cache import entry_folder, verified_files
@@ -38,12 +41,19 @@ def tower() -> ModelInterface:
 
 
 @cache
-def native_fmu(ending: str = "native") -> Path:
-    """The FMU for FMI 2.0 or, ending in `native_fmi3`, for FMI 3.0; building both takes half a minute."""
+def drive() -> ModelInterface:
+    """The drive with the declared values of its parameters."""
+    return drive_interface()
+
+
+@cache
+def native_fmu(ending: str = "native", name: str = "CompensationRope") -> Path:
+    """The FMU for FMI 2.0 or, ending in `native_fmi3`, for FMI 3.0; building those of rope and drive takes half a minute."""
     folder = entry_folder("tests", _digest())
     with verified_files(folder, "*.fmu"):
-        if not (made := folder / f"CompensationRope_{ending}.fmu").is_file():
-            build_native(tower(), folder, ORIGIN, FMI_VERSIONS, [linker.host_target()])
+        if not (made := folder / f"{name}_{ending}.fmu").is_file():
+            build_native(rope_component(tower()), folder, ORIGIN, FMI_VERSIONS, [linker.host_target()])
+            build_native(drive_component(drive()), folder, ORIGIN, FMI_VERSIONS, [linker.host_target()])
     return made
 
 

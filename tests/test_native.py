@@ -30,7 +30,7 @@ from comprope.fmi.reference_result import INPUT_FILE, OUTPUT_FILE
 from comprope.native import linker
 from comprope.native.c_source import quoted
 from comprope.native.fmi2_package import universal_binary
-from comprope.native.llvm_ir import require_no_python, sizes
+from comprope.native.llvm_ir import require_no_python, rope_sizes
 from comprope.native.python_binary import python_binaries
 from comprope.native.targets import TARGETS
 from comprope.rope.runtime.status import MESSAGES, require_success
@@ -105,7 +105,8 @@ def unpacked(fmu: Path, folder: Path) -> Path:
     """The binary for this system."""
     target = TARGETS[linker.host_target()]
     with zipfile.ZipFile(fmu) as archive:
-        return Path(archive.extract(f"binaries/{target.folder}/CompensationRope.{target.extension}", folder))
+        name = f"{fmu.name.partition('_')[0]}.{target.extension}"
+        return Path(archive.extract(f"binaries/{target.folder}/{name}", folder))
 
 
 # -- the same numbers ----------------------------------------------------------------------------
@@ -243,10 +244,17 @@ def compiled(source: Path, program: Path, *options: str) -> str:
     return str(program)
 
 
+# Two inputs, a parameter and an output.
+HOSTED = {
+    "CompensationRope": ("car_position", "counterweight_position", "sheave.mass", "lateral_displacement[1]"),
+    "ElevatorDrive": ("car_end_tension", "counterweight_end_tension", "plant.car_mass", "car_position"),
+}
+
+
 def hosted(host: list[str], scenario: str, fmu: Path, binary: Path, number: int) -> str:
     description = read_model_description(str(fmu))
     references = {one.name: str(one.valueReference) for one in description.modelVariables}
-    names = ("car_position", "counterweight_position", "sheave.mass", "lateral_displacement[1]")
+    names = HOSTED[description.modelName]
     arguments = [scenario, str(binary), description.guid, *(references[name] for name in names), str(number)]
     result = subprocess.run([*host, *arguments], capture_output=True, text=True, timeout=300, check=False)
     assert result.returncode == 0, result.stdout + result.stderr
@@ -254,9 +262,11 @@ def hosted(host: list[str], scenario: str, fmu: Path, binary: Path, number: int)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the host needs POSIX threads")
+@pytest.mark.parametrize("name", HOSTED)
 @pytest.mark.parametrize(("scenario", "number"), [("cycle", 20), ("threads", 3), ("states", 1), ("wrong", 1)])
-def test_in_a_host_without_python(fmu: Path, host: list[str], tmp_path: Path, scenario: str, number: int) -> None:
+def test_in_a_host_without_python(host: list[str], tmp_path: Path, name: str, scenario: str, number: int) -> None:
     """Loaded and unloaded, in threads, saved and restored, called wrongly; memory is given back to the last byte."""
+    fmu = native_fmu("native", name)
     assert hosted(host, scenario, fmu, unpacked(fmu, tmp_path), number).startswith(f"{scenario}: 0 failures")
 
 
@@ -268,6 +278,7 @@ import sys, zipfile
 from pathlib import Path
 from comprope.fmi.package import Origin
 from comprope.native import linker, package
+from comprope.native.rope_component import rope_component
 from comprope.rope.simulator.cosimulation import interface
 from comprope.rope.model_file import as_table, load, validated
 
@@ -276,7 +287,7 @@ table = as_table(load(Path(model))) | {"own_effects": effects}
 # Not computed again, since that would compile the kernels once more.
 archive = zipfile.ZipFile(fmu)
 package.reference_result = lambda _: {name: archive.read(name) for name in archive.namelist() if name.startswith("resources/")}
-rope = interface(validated(table, model))
+rope = rope_component(interface(validated(table, model)))
 package.build_native(rope, Path(out), Origin(version, licence), package.FMI_VERSIONS, [linker.host_target()])
 """
 
@@ -365,16 +376,17 @@ OTHER = """\
 import sys
 from pathlib import Path
 from comprope.native.c_source import kernels_header
-from comprope.native.llvm_ir import sizes
+from comprope.native.llvm_ir import rope_sizes
+from comprope.native.rope_component import rope_component
 from comprope.rope.effects import user_effects
 from comprope.rope.model_file import load
 from comprope.rope.simulator.cosimulation import interface
 
 model = load(sys.argv[1])
-found = sizes({})
-before = kernels_header(interface(model), found)
+found = rope_sizes({})
+before = kernels_header(rope_component(interface(model), found))
 user_effects.load_file(Path(sys.argv[2]), allow_code=True)
-assert kernels_header(interface(model), found) == before
+assert kernels_header(rope_component(interface(model), found)) == before
 """
 
 
@@ -429,5 +441,5 @@ def test_modules_in_the_present_folder_are_not_run(tmp_path, monkeypatch):
     for name in ("numba", "json", "comprope"):
         (tmp_path / f"{name}.py").write_text("from pathlib import Path\nPath('run').touch()\n")
     monkeypatch.chdir(tmp_path)
-    assert set(sizes({})) == {40, 41, 50}
+    assert set(rope_sizes({})) == {40, 41, 50}
     assert not (tmp_path / "run").exists()

@@ -1,5 +1,6 @@
 """Drive and rope as one system file."""
 
+import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -11,6 +12,12 @@ import numpy as np
 import pytest
 from fmpy.ssp import simulation
 from fmpy.ssp.ssd import read_ssd
+
+from comprope.rope.model_file import load
+from comprope_system import presets
+from comprope_system.fmu_export.workflow import elevator_system
+
+from .native_fmu import compiler, native_fmu
 
 BUILDER = Path(__file__).parent.parent / "build_fmu.py"
 
@@ -65,6 +72,19 @@ def test_runs_in_fmpy(system: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # The rope lags one step behind the drive.
     assert np.array_equal(result["rope.car_position"], result["drive.car_position"])
     # Whatever rings because each component gets the inputs from the other a step late: the force stays near the sheave's weight.
+    assert result["rope.sheave_force"] == pytest.approx(1177.2, rel=0.15)
+
+
+@compiler
+def test_native_drive_and_rope_make_a_system(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same trip as with the FMUs of one process, with no Python in it."""
+    parts = [Path(shutil.copy(native_fmu("native", name), tmp_path)) for name in ("CompensationRope", "ElevatorDrive")]
+    system = elevator_system(load(presets.model_path("tower50")), *parts)
+    with zipfile.ZipFile(system) as archive:
+        assert {f"resources/{part.name}" for part in parts} <= set(archive.namelist())
+    monkeypatch.setattr(simulation, "instantiate_fmu", with_start_values(simulation.instantiate_fmu))
+    result = simulation.simulate_ssp(str(system), stop_time=3.0, step_size=0.01)
+    assert result["drive.car_position"][-1] > 0.5
     assert result["rope.sheave_force"] == pytest.approx(1177.2, rel=0.15)
 
 

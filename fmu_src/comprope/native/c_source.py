@@ -1,26 +1,16 @@
 """C source that is generated: the model's variables, and the kernels' memory and how they are called."""
 
-from collections.abc import Mapping
-
-import numpy as np
+from collections.abc import Mapping, Sequence
 
 from ..fmi.model_interface import ModelInterface, Variable
 from ..fmi.validation import range_text
-from ..kernels.status import MESSAGE_VALUES
-from ..rope.compiler.entry_points import SOURCES, TABLES
-from ..rope.compiler.workspace import without_friction
-from ..rope.effects.base import REGISTRY, Effect
-from ..rope.integration.outputs import OUTPUTS
-from ..rope.runtime.parameter_vector import DECLARED
-from ..rope.runtime.status import MESSAGES
-from ..rope.simulator.end_motion import NAMES
-from .llvm_ir import CALLED, PREFIX
+from ..kernels.entry_source import EntrySource
+from ..kernels.status import MESSAGE_VALUES, Messages
+from .component import Component
+from .llvm_ir import PREFIX
 
 _HEADING = "/* Generated from the declarations of the model; not to be edited. */\n"
 _INCLUDES = "#include <stddef.h>\n#include <stdint.h>\n"
-_LAST_OF_STATE = "Ends.samples"  # the arrays of a rope up to this one are what its state consists of
-_AMONG_VARIABLES = ("Ends.u", "Ends.options", "Outputs.sensors")  # have no memory of their own
-ARRAYS, INTEGERS = TABLES.arrays, TABLES.integers
 _C_TYPES = {int: "int64_t", bool: "int8_t", float: "double", type(None): "void"}
 
 
@@ -58,91 +48,76 @@ def quoted(text: str) -> str:
     return '"' + "".join(chr(byte) if byte in plain else f"\\{byte:03o}" for byte in text.encode()) + '"'
 
 
-def effects_of(interface: ModelInterface) -> list[type[Effect]]:
-    """The effects that a rope may have: those with parameters among its variables."""
-    found = {one.name.split(".")[1] for one in interface.variables if one.name.startswith("effects.")}
-    return [effect for name, effect in REGISTRY.items() if name in found]
+def kernels_header(component: Component) -> str:
+    """What the C sources need of the kernels: `kernels.h`."""
+    used = {name for entry in component.sources.values() for name in entry.used}
+    parts = [
+        _constants(component),
+        component.declarations,
+        _arrays(component, used),
+        _among_values(component),
+        _messages(component.messages),
+        *(_call(source) for source in component.sources.values()),
+    ]
+    return f"{_HEADING}#ifndef KERNELS_H\n#define KERNELS_H\n\n{_INCLUDES}\n" + "\n".join(filter(None, parts)) + "\n#endif\n"
 
 
-def kernels_header(interface: ModelInterface, sizes: Mapping[int, Mapping[str, int]]) -> str:
-    """What `rope_model.c` needs of the kernels: `kernels.h`.
-
-    `sizes` says, for three numbers of nodes, how many numbers each array of a rope has.
-    """
-    fixed = {"Outputs.y": len(interface.of_role("output"))} | dict.fromkeys(_AMONG_VARIABLES, 0)
-    used = {name for entry in CALLED for name in SOURCES[entry].used}
-    chosen = {n: {name: (dict(found) | fixed)[name] for name in ARRAYS if name in used} for n, found in sizes.items()}
-    parts = [_constants(interface), _slots(interface), _arrays(chosen), _messages(), *(_call(name) for name in CALLED)]
-    return f"{_HEADING}#ifndef KERNELS_H\n#define KERNELS_H\n\n{_INCLUDES}\n" + "\n".join(parts) + "\n#endif\n"
+def _constants(component: Component) -> str:
+    """Numbers of the component, and the place of the first input."""
+    if [one.name for one in component.interface.of_role("output")] != list(component.outputs):
+        raise ValueError("the model's outputs do not stand in the order of the kernels")
+    inputs = component.places[component.interface.of_role("input")[0].name]
+    values = {"FIRST_INPUT": inputs, "MESSAGE_VALUES": MESSAGE_VALUES} | dict(component.constants)
+    return "enum {\n" + "".join(f"    {name} = {value},\n" for name, value in values.items()) + "};\n"
 
 
-def _places(interface: ModelInterface) -> dict[str, int]:
-    return {one.name: place for place, one in enumerate(interface.variables)}
+def _among_values(component: Component) -> str:
+    """The arrays that the kernels read where the values of variables lie; these must lie in the kernels' order."""
+    places = component.places
+    rows = [f"    {{{_constant(name)}, {_first(places, names)}}},\n" for name, names in component.among_variables.items()]
+    return (
+        f"enum {{ AMONG_VALUES_COUNT = {len(rows)} }};\n\nstatic const struct {{\n    size_t array, place;\n}} "
+        f"AMONG_VALUES[AMONG_VALUES_COUNT] = {{\n{''.join(rows)}}};\n"
+    )
 
 
-def _constants(interface: ModelInterface) -> str:
-    """Places of values that the kernels read where they lie; they must lie in the kernels' order."""
-    places = _places(interface)
-    sensors = sum(name.startswith("lateral_displacement[") for name in places)
-    sensor_values = [f"sensors[{k}].{what}" for k in range(1, sensors + 1) for what in ("height", "on_counterweight_side")]
-    readings = [f"{what}[{k}]" for k in range(1, sensors + 1) for what in ("lateral_displacement", "in_view")]
-    firsts = {
-        "FIRST_SENSOR": _first(places, sensor_values, "derivative_inputs"),
-        "FIRST_OPTION": _first(places, ["derivative_inputs", "inputs_at_end"]),
-        "FIRST_INPUT": _first(places, list(NAMES)),
-        "FIRST_OUTPUT": _first(places, [*readings, *OUTPUTS]),
-        "SENSORS": sensors,
-        "EFFECTS": len(effects_of(interface)),
-        "HISTORIES": sum(one.states for one in effects_of(interface)),
-        "MESSAGE_VALUES": MESSAGE_VALUES,
-    }
-    return "enum {\n" + "".join(f"    {name} = {value},\n" for name, value in firsts.items()) + "};\n"
-
-
-def _first(places: dict[str, int], names: list[str], empty: str = "") -> int:
-    first = places[names[0] if names else empty]
+def _first(places: Mapping[str, int], names: Sequence[str]) -> int:
+    first = places[names[0]] if names else 0
     if [places[name] for name in names] != list(range(first, first + len(names))):
         raise ValueError(f"the model's variables {names[0]} ... do not stand in the order of the kernels")
     return first
 
 
-def _slots(interface: ModelInterface) -> str:
-    """Where each of the kernels' parameters stands among the values, and which ones a rope without friction has instead."""
-    effects = tuple(f"effects.{one.name}." for one in effects_of(interface))
-    known = [k for k, name in enumerate(DECLARED) if not name.startswith("effects.") or name.startswith(effects)]
-    names, special = list(DECLARED), without_friction(np.full(len(DECLARED), np.nan)).tolist()
-    places = [_places(interface).get(names[k], -1) for k in known]
-    pairs = [f"    {{{slot}, {_number(special[k])}}},\n" for slot, k in enumerate(known) if special[k] == special[k]]
+def _arrays(component: Component, used: set[str]) -> str:
+    """The tables of arrays and integers, and the sizes of the arrays, which grow linearly with the number of columns."""
+    arrays, integers = component.tables.arrays, component.tables.integers
+    names = [name for name in arrays if name in used]
+    if [arrays[name] for name in names] != list(range(len(names))):
+        raise ValueError("the arrays of the component do not come first in the kernels' table")
+    numbers = {name: place for name, place in integers.items() if name in used}
+    if list(numbers.values()) != list(range(len(numbers))):
+        raise ValueError("the integers of the component do not come first in the kernels' table")
+    places = "".join(f"    {_constant(name)},\n" for name in names)
     return (
-        f"enum {{ SLOT_COUNT = {len(places)}, FRICTIONLESS_COUNT = {len(pairs)} }};\n\n"
-        f"static const int SLOT_PLACES[SLOT_COUNT] = {{{', '.join(map(str, places))}}};\n\n"
-        "static const struct {\n    size_t slot;\n    double value;\n} FRICTIONLESS[FRICTIONLESS_COUNT] = {\n"
-        + "".join(pairs)
+        f"enum {{\n{places}    ARRAYS,\n    STATE_ARRAYS = {_constant(component.last_of_state)} + 1,\n}};\n\n"
+        f"enum {{\n{''.join(f'    {_constant(name)},{chr(10)}' for name in numbers)}    INTEGERS,\n}};\n\n"
+        "typedef struct {\n    double *array[ARRAYS];\n    int64_t integer[INTEGERS];\n} Tables;\n\n"
+        "static const struct {\n    size_t per_column, fixed;\n} SIZES[ARRAYS] = {\n"
+        + "".join(_size(component, name) for name in names)
         + "};\n"
     )
 
 
-def _arrays(sizes: Mapping[int, Mapping[str, int]]) -> str:
-    """The rope's tables of arrays and integers, and the sizes of the arrays, which grow linearly with the number of nodes."""
-    few, more, many = sorted(sizes)
-    names, rows = list(sizes[few]), []
-    if [ARRAYS[name] for name in names] != list(range(len(names))):
-        raise ValueError("the arrays of a rope do not come first in the kernels' table")
-    for name in names:
-        slope = (sizes[more][name] - sizes[few][name]) // (more - few)
-        fixed = sizes[few][name] - slope * (few + 1)
-        if any(sizes[n][name] != slope * (n + 1) + fixed for n in (more, many)):
-            raise ValueError(f"the array {name} does not grow linearly with the number of nodes")
-        rows.append(f"    [{_constant(name)}] = {{{slope}, {fixed}}},\n")
-    places = "".join(f"    {_constant(name)},\n" for name in names)
-    integers = [name for name in INTEGERS if name.startswith("RopeData.")]
-    numbers = "".join(f"    {_constant(name)} = {INTEGERS[name]},\n" for name in integers)
-    return (
-        f"enum {{\n{places}    ARRAYS,\n    STATE_ARRAYS = {_constant(_LAST_OF_STATE)} + 1,\n}};\n\n"
-        f"enum {{\n{numbers}    INTEGERS = {len(integers)},\n}};\n\n"
-        "typedef struct {\n    double *array[ARRAYS];\n    int64_t integer[INTEGERS];\n} Rope;\n\n"
-        "static const struct {\n    size_t per_column, fixed;\n} SIZES[ARRAYS] = {\n" + "".join(rows) + "};\n"
-    )
+def _size(component: Component, name: str) -> str:
+    """One row of SIZES; an array among the values of variables has none."""
+    if name in component.among_variables:
+        return f"    [{_constant(name)}] = {{0, 0}},\n"
+    (few, small), (more, larger), (many, large) = sorted((n, sizes[name]) for n, sizes in component.sizes.items())
+    slope = (larger - small) // (more - few)
+    fixed = small - slope * few
+    if (larger, large) != (slope * more + fixed, slope * many + fixed):
+        raise ValueError(f"the array {name} does not grow linearly with the number of columns")
+    return f"    [{_constant(name)}] = {{{slope}, {fixed}}},\n"
 
 
 def _constant(name: str) -> str:
@@ -151,22 +126,21 @@ def _constant(name: str) -> str:
     return f"{group.upper()}_{field}"
 
 
-def _messages() -> str:
-    rows = "".join(f"    [{status}] = {quoted(text)},\n" for status, (_, text, _) in sorted(MESSAGES.items()))
+def _messages(messages: Messages) -> str:
+    rows = "".join(f"    [{status}] = {quoted(text)},\n" for status, (_, text, _) in sorted(messages.items()))
     return f"static const char *const MESSAGES[] = {{\n{rows}}};\n"
 
 
-def _call(name: str) -> str:
-    """The prototype of a compiled entry point, and a function that calls it with the tables of a rope."""
-    source = SOURCES[name]
+def _call(source: EntrySource) -> str:
+    """The prototype of a compiled entry point, and a function that calls it with the tables of a model."""
     result = _C_TYPES[source.result]
     numbers = "".join(f", {_C_TYPES[kind]} {one}" for one, kind in source.scalars.items())
     given = "".join(f", {one}" for one in source.scalars)
     stored = "void *" if result == "void" else f"{result} "
     body = f"    {stored}result = 0;\n    void *problem = 0;\n"
-    body += f"    {PREFIX}{name}(&result, &problem, rope->array, rope->integer{given});\n"
+    body += f"    {PREFIX}{source.name}(&result, &problem, tables->array, tables->integer{given});\n"
     body += "" if result == "void" else "    return result;\n"
     return (
-        f"int32_t {PREFIX}{name}({stored}*, void **, double **, int64_t *{numbers});\n\n"
-        f"static inline {result} rope_{name}(Rope *rope{numbers})\n{{\n{body}}}\n"
+        f"int32_t {PREFIX}{source.name}({stored}*, void **, double **, int64_t *{numbers});\n\n"
+        f"static inline {result} call_{source.name}(Tables *tables{numbers})\n{{\n{body}}}\n"
     )

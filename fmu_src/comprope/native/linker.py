@@ -22,9 +22,10 @@ HEADERS = Path(fmpy.__file__).parent / "c-code"  # those of the FMI standard, un
 _OPTIONS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-fno-sanitize=all", "-shared")
 
 
-def c_sources() -> dict[str, bytes]:
-    """The C files by name."""
-    return {path.name: path.read_bytes() for pattern in ("*.c", "*.h") for path in sorted(C_SOURCES.glob(pattern))}
+def c_sources(component: str) -> dict[str, bytes]:
+    """The C files by name, with that of rope or drive."""
+    found = [path for pattern in ("*.c", "*.h") for path in sorted(C_SOURCES.glob(pattern))]
+    return {path.name: path.read_bytes() for path in (*found, C_SOURCES / "components" / f"{component}.c")}
 
 
 def toolchain() -> str:
@@ -45,10 +46,9 @@ def system_names(targets: Iterable[str]) -> str:
     return f"{', '.join(most)} and {last}" if most else last
 
 
-def link_binaries(name: str, kernels: Mapping[str, bytes], generated: Mapping[str, str]) -> dict[str, bytes]:
-    """Binaries of the FMU `name` by target, from the kernels' machine code by target and generated C files."""
-    files: dict[str, bytes] = {path: text.encode() for path, text in generated.items()} | c_sources()
-    return {place: link(name, files | {"kernels.o": code}, TARGETS[place], ["-lm"]) for place, code in kernels.items()}
+def link_binaries(name: str, kernels: Mapping[str, bytes], sources: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Binaries of the FMU `name` by target, from the kernels' machine code by target and C files."""
+    return {place: link(name, {**sources, "kernels.o": code}, TARGETS[place], ["-lm"]) for place, code in kernels.items()}
 
 
 def link(name: str, files: Mapping[str, bytes], target: Target, libraries: Sequence[str]) -> bytes:

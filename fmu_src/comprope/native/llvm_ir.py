@@ -2,7 +2,7 @@
 
 Runs as a program in a process of its own, since numba fixes processor and optimisation when it is imported:
 
-    python -P -m comprope.native.llvm_ir code|sizes OUT [EFFECT.py ...]
+    python -P -m comprope.native.llvm_ir rope|drive|sizes OUT [EFFECT.py ...]
 
 EFFECT.py are files of a user's own effects, in the order in which they were first run.
 """
@@ -20,11 +20,14 @@ from typing import Any
 from ..errors import CompropeError
 
 PREFIX = "comprope_"
-# Entry points that a program without Python calls, of `entry_points.ENTRIES`.
-CALLED = (
-    "generate_mesh", "check_mesh", "check_reach", "check_start", "start_at_rest", "start_inputs", "check_motion",
-    "interpolate_inputs", "advance", "evaluate_outputs",
-)  # fmt: skip
+# Entry points that a program without Python calls, of the `entry_points.ENTRIES` of each component.
+CALLED = {
+    "rope": (
+        "generate_mesh", "check_mesh", "check_reach", "check_start", "start_at_rest", "start_inputs", "check_motion",
+        "interpolate_inputs", "advance", "evaluate_outputs",
+    ),
+    "drive": ("count_points", "design_drive", "check", "start_at_rest", "advance_drive", "evaluate_drive"),
+}  # fmt: skip
 _PLAIN = {"PYTHONHASHSEED": "0", "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0"}
 _NODES = (40, 41, 50)
 # Of the C library: real functions of real numbers, and what compilers themselves call.
@@ -35,15 +38,15 @@ _C_LIBRARY = {
 }  # fmt: skip
 
 
-def kernels(files: Mapping[str, str]) -> str:
-    """The code of all kernels in CALLED, each under its name behind PREFIX, in one module; nothing else is visible.
+def kernels(component: str, files: Mapping[str, str]) -> str:
+    """The code of all kernels in CALLED of rope or drive, each under its name behind PREFIX, in one module.
 
-    `files` has the sources of a user's own effects by path; comprope's own are always in.
+    Nothing else is visible. `files` has the sources of a user's own effects by path; comprope's own are always in.
     """
-    return _apart("code", files, _PLAIN)
+    return _apart(component, files, _PLAIN)
 
 
-def sizes(files: Mapping[str, str]) -> dict[int, dict[str, int]]:
+def rope_sizes(files: Mapping[str, str]) -> dict[int, dict[str, int]]:
     """For some numbers of nodes, how many numbers each array of a rope has, by group and name as in `entry_points.TABLES`."""
     found = json.loads(_apart("sizes", files, {"COMPROPE_PURE_PYTHON": "1"}))
     return {int(nodes): arrays for nodes, arrays in found.items()}
@@ -65,16 +68,14 @@ def _apart(what: str, files: Mapping[str, str], settings: dict[str, str]) -> str
         return out.read_text("utf-8")
 
 
-def _code() -> str:
+def _code(component: str) -> str:
     import llvmlite.binding as llvm
     import numba
 
     from ..kernels.jit import OPTIONS
-    from ..rope.compiler.entry_points import compiled
 
     whole: Any = llvm.parse_assembly("")
-    for name in CALLED:
-        entry = compiled()[name]
+    for name, entry in _entries(component).items():
         options: Any = OPTIONS | {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
         function: Any = numba.njit(entry.signature, **options)(entry.function)
         (made,) = function.overloads.values()
@@ -85,6 +86,14 @@ def _code() -> str:
     require_no_python(whole)
     # Addresses of numba's own objects in this process, which the code never follows.
     return re.sub(r"inttoptr \(i64 \d+ to ptr\)", "null", str(whole))
+
+
+def _entries(component: str) -> dict[str, Any]:
+    from ..drive.kernels import entry_points as drive
+    from ..rope.compiler import entry_points as rope
+
+    compiled = {"rope": rope, "drive": drive}[component].compiled()
+    return {name: compiled[name] for name in CALLED[component]}
 
 
 def _hide_all_but_entries(module: Any) -> None:
@@ -126,4 +135,5 @@ if __name__ == "__main__":
 
     for one in sys.argv[3:]:
         user_effects.load_file(Path(one), allow_code=True)
-    Path(sys.argv[2]).write_text({"code": _code, "sizes": _sizes}[sys.argv[1]](), encoding="utf-8")
+    wanted = sys.argv[1]
+    Path(sys.argv[2]).write_text(_sizes() if wanted == "sizes" else _code(wanted), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Build the rope's FMU without Python: the same kernels, compiled, with the functions of the FMI in C.
+"""Build the FMU of rope or drive without Python: the same kernels, compiled, with the functions of the FMI in C.
 
 Variables, documentation and icon have the same sources as those of the FMU that runs in Python. The FMUs for all versions
 of the FMI standard share one set of binaries.
@@ -15,20 +15,20 @@ from ..fmi.model_interface import ModelInterface
 from ..fmi.package import DESCRIPTION, Origin, digest, reproducible_zip
 from ..fmi.reference_result import reference_result
 from ..fmi.validation import interface_problems
-from ..rope.effects.user_effects import FILES
 from . import linker
-from .c_source import effects_of, kernels_header, model_source
+from .c_source import kernels_header, model_source
+from .component import Component
 from .fmi2_package import FMI2
 from .fmi3_package import FMI3
 from .fmi_version import FmiVersion
-from .llvm_ir import kernels, sizes
+from .llvm_ir import kernels
 from .targets import TARGETS, machine_code
 
 FMI_VERSIONS = (FMI2, FMI3)
 
 
 def build_native(
-    interface: ModelInterface,
+    component: Component,
     out: Path,
     origin: Origin,
     versions: Sequence[FmiVersion] = (FMI2,),
@@ -36,18 +36,17 @@ def build_native(
 ) -> list[Path]:
     """Write `<out>/<name>_<ending of the version>.fmu` for each version, atomically, and return their paths.
 
-    They have binaries for `targets` (see `targets.TARGETS`), by default all that can be linked for on this system. The
-    effects that the model may have are compiled in, a user's own as well. The same sources and tools give the same bytes.
+    They have binaries for `targets` (see `targets.TARGETS`), by default all that can be linked for on this system. The same
+    sources and tools give the same bytes.
     """
+    interface = component.interface
     if problems := interface_problems(interface):
         raise InputError("; ".join(problems))
-    files, chosen = user_effect_files(interface), list(targets) or linker.linkable_targets()
-    code, header = kernels(files), kernels_header(interface, sizes(files))
+    code, chosen = kernels(component.name, component.effect_files), list(targets) or linker.linkable_targets()
     compiled = {name: machine_code(code, TARGETS[name]) for name in chosen}
     shared = reference_result(interface)
-    identity = _identities(interface, origin, header, shared | {f"kernels/{name}": one for name, one in compiled.items()})
-    model = model_source(interface, identity[FMI2], identity[FMI3])
-    binaries = linker.link_binaries(interface.name, compiled, {"kernels.h": header, "model.c": model})
+    identity = _identities(component, origin, shared | {f"kernels/{name}": one for name, one in compiled.items()})
+    binaries = linker.link_binaries(interface.name, compiled, _sources(component, identity[FMI2], identity[FMI3]))
     for one in versions:
         own = _version_files(one, interface, origin, identity[one], linker.system_names(chosen))
         own |= one.binary_files(interface.name, binaries)
@@ -56,20 +55,21 @@ def build_native(
     return [out / _file_name(interface, one) for one in versions]
 
 
+def _sources(component: Component, guid: str, token: str) -> dict[str, bytes]:
+    """The C files by name, those that are generated among them."""
+    generated = {"kernels.h": kernels_header(component), "model_variables.c": model_source(component.interface, guid, token)}
+    return linker.c_sources(component.name) | {name: text.encode() for name, text in generated.items()}
+
+
 def _file_name(interface: ModelInterface, version: FmiVersion) -> str:
     return f"{interface.name}_{version.ending}.fmu"
 
 
-def user_effect_files(interface: ModelInterface) -> dict[str, str]:
-    """Sources of the user's own effects that a rope may have by path, in the order in which they were first run."""
-    return {one.source: FILES[one.source].text for one in effects_of(interface) if one.source}
-
-
-def _identities(interface: ModelInterface, origin: Origin, header: str, parts: Mapping[str, bytes]) -> dict[FmiVersion, str]:
+def _identities(component: Component, origin: Origin, parts: Mapping[str, bytes]) -> dict[FmiVersion, str]:
     """GUID and instantiation token: hashes of all sources of the FMUs and of the compiler."""
-    generated = {"kernels.h": header, "model.c": model_source(interface, "", ""), "compiler": linker.toolchain()}
-    sources = {f"c/{name}": content for name, content in (linker.c_sources() | dict(parts)).items()}
-    sources |= {name: text.encode() for name, text in generated.items()}
+    interface = component.interface
+    sources = {f"c/{name}": content for name, content in _sources(component, "", "").items()}
+    sources |= {**parts, "compiler": linker.toolchain().encode()}
     for one in FMI_VERSIONS:
         own = _version_files(one, interface, origin, identity="", systems="")
         sources |= {f"{one.version}/{name}": content for name, content in own.items()}

@@ -12,8 +12,8 @@ from ._terminal import OutputFile, finish, progress_display, require_files
 
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder to write to.")]
 SENSORS = Annotated[int | None, typer.Option(metavar="N", help="Number of displacement sensors; default those of the model.")]
-NATIVE = Annotated[bool, typer.Option("--native", help="Also compile the rope, for importers without Python.")]
-FMI3 = Annotated[bool, typer.Option("--fmi3", help="Also compile the rope for FMI 3.0.")]
+NATIVE = Annotated[bool, typer.Option("--native", help="Also compile rope and drive, for importers without Python.")]
+FMI3 = Annotated[bool, typer.Option("--fmi3", help="Also compile rope and drive for FMI 3.0.")]
 SSP = Annotated[bool, typer.Option("--ssp", help="Also write drive and rope as one connected system, Elevator.ssp.")]
 
 

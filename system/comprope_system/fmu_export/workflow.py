@@ -33,8 +33,8 @@ def fmu(
     """Build the FMUs of rope and drive; the result's `save(folder)` writes them.
 
     `model` is a model file, a preset's name or a `RopeModel` that has the start values of the rope's parameters; `changes` are
-    values by key; `sensors` is another number of sensors. With `native` and `fmi3` the rope is also compiled, for FMI 2.0 and
-    3.0; with `ssp` drive and rope are also connected in one system, with the native rope of FMI 2.0 if there is one. Raises
+    values by key; `sensors` is another number of sensors. With `native` and `fmi3` both are also compiled, for FMI 2.0 and
+    3.0; with `ssp` drive and rope are also connected in one system, the native ones of FMI 2.0 if there are any. Raises
     `InputError` for invalid input or where there is no C compiler.
     """
     chosen = read_model(model, changes)
@@ -43,15 +43,17 @@ def fmu(
     total, built = 2 + bool(versions) + ssp, list[Path]()
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder)
-        for recipe in (rope_recipe(rope), drive_recipe()):
+        recipes = (rope_recipe(rope), drive_recipe())
+        for recipe in recipes:
             progress(f"building {recipe.interface.name}", len(built), total)
             built.append(recipe.build(out, reference=True))
         if versions:
-            progress("compiling the rope", 2, total)
-            built += _native_ropes(rope, out, versions)
+            progress("compiling rope and drive", 2, total)
+            built += _native_fmus(rope, out, versions)
         if ssp:
             progress(f"building {SYSTEM}", total - 1, total)
-            built.append(_system(rope, built[2 if native else 0], built[1]))
+            first = len(recipes) if native else 0
+            built.append(elevator_system(rope, built[first], built[first + 1]))
         return FmuResult({path.name: path.read_bytes() for path in built}, rope, model_name(model))
 
 
@@ -67,15 +69,20 @@ def with_sensors(model: RopeModel, count: int) -> RopeModel:
     return model.model_copy(update={"sensors": (*model.sensors, *added)[:count]})
 
 
-def _native_ropes(model: RopeModel, out: Path, versions: list[str]) -> list[Path]:
-    """The rope's FMUs that need no Python, for every system that this one can compile for."""
+def _native_fmus(model: RopeModel, out: Path, versions: list[str]) -> list[Path]:
+    """The FMUs of rope and drive that need no Python, by version, for every system that this one can compile for."""
+    from comprope.native.drive_component import drive_component
     from comprope.native.package import FMI_VERSIONS, build_native
+    from comprope.native.rope_component import rope_component
 
-    return build_native(rope_interface(model), out, origin(), [one for one in FMI_VERSIONS if one.version in versions])
+    chosen = [one for one in FMI_VERSIONS if one.version in versions]
+    components = (rope_component(rope_interface(model)), drive_component(drive_interface()))
+    made = [build_native(one, out, origin(), chosen) for one in components]
+    return [path for paths in zip(*made, strict=True) for path in paths]
 
 
-def _system(model: RopeModel, rope: Path, drive: Path) -> Path:
-    """Drive and rope as one system: whatever has the same name is connected."""
+def elevator_system(model: RopeModel, rope: Path, drive: Path) -> Path:
+    """Drive and rope as one system beside the rope's FMU: whatever has the same name is connected."""
     rope_part = Component("rope", rope, rope_interface(model), {"derivative_inputs": True})
     components = [Component("drive", drive, drive_interface(), exposed=("destination",)), rope_part]
     return write_ssp(rope.with_name(f"{SYSTEM}.ssp"), SYSTEM, components, connections_by_name(components))

@@ -63,7 +63,7 @@ int enter_initialization(void *component)
 /* Copy the model's outputs to the values if all are finite. */
 static bool update_outputs(Instance *instance)
 {
-    const double *outputs = rope_model_outputs(&instance->model);
+    const double *outputs = model_outputs(&instance->model);
     if (!check_outputs(outputs, &instance->problems)) {
         return false;
     }
@@ -81,8 +81,8 @@ bool ensure_model(Instance *instance)
     bool valid = check_ranges(PARAMETER, state->values, problems);
     valid &= check_ranges(INPUT, state->values, problems);
     instance->model_ready = valid &&
-                            rope_model_prepare(&instance->model, instance->allocator, state->values, problems) &&
-                            rope_model_initialize(&instance->model, state->start, problems) && update_outputs(instance);
+                            model_prepare(&instance->model, instance->allocator, state->values, problems) &&
+                            model_initialize(&instance->model, state->start, problems) && update_outputs(instance);
     return instance->model_ready;
 }
 
@@ -113,7 +113,7 @@ int do_step(void *component, double time, double dt)
     Message *problems = &instance->problems;
     const bool done = can_step(instance) && check_step(time, dt, state->time, state->stop, problems) &&
                       check_ranges(INPUT, state->values, problems) &&
-                      rope_model_step(&instance->model, time, dt, problems) && update_outputs(instance);
+                      model_step(&instance->model, time, dt, problems) && update_outputs(instance);
     if (done) {
         state->time = time + dt;
     }

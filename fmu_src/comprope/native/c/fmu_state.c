@@ -147,7 +147,7 @@ static bool prepare_model_for(Instance *instance, const SavedState *state)
     }
     instance->model_ready = false;
     memcpy(values, state->numbers, settable * sizeof *values);
-    return rope_model_prepare(&instance->model, instance->allocator, values, &instance->problems);
+    return model_prepare(&instance->model, instance->allocator, values, &instance->problems);
 }
 
 static bool restore(Instance *instance, const SavedState *state)

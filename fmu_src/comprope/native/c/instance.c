@@ -63,7 +63,7 @@ void instance_free(void *component)
     if (instance) {
         const Allocator allocator = instance->allocator;
         free_all_states(instance);
-        rope_model_free(&instance->model, allocator);
+        model_free(&instance->model, allocator);
         allocator.release(instance->state.values);
         allocator.release(instance);
     }

@@ -10,7 +10,7 @@
 
 #include "allocator.h"
 #include "message.h"
-#include "rope_model.h"
+#include "model.h"
 
 #include <stdbool.h>
 
@@ -38,7 +38,7 @@ typedef struct {
     Logger logger;
     Allocator allocator;
     InstanceState state;
-    RopeModel model;
+    Model model;
     bool model_ready; /* initialized from the present values */
     struct SavedState *saved_states; /* those not freed yet */
     Message problems;

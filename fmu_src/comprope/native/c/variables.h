@@ -1,4 +1,4 @@
-/* The variables of the model. model.c, which defines them, is generated from their declarations. */
+/* The variables of the model. model_variables.c, which defines them, is generated from their declarations. */
 #ifndef VARIABLES_H
 #define VARIABLES_H
 
