@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from raw_log_variants import Variant, variants
 
 import comprope_system
@@ -78,8 +79,21 @@ def judge(variant: Variant, file: Path, campaign: Path, truth: Run) -> Outcome:
     run, said = run_of(file, campaign, variant.extra, variant.run_extra)
     if run is None:
         return Outcome(variant.name, "refused", said)
+    if variant.truth is not None:
+        truth = _true_run(variant.truth, campaign)
     other = difference(run, truth, variant.asked)
     return Outcome(variant.name, "right" if not other else "told" if said else "WRONG", said or other)
+
+
+def _true_run(table: pd.DataFrame, campaign: Path) -> Run:
+    """The run of a table in its plain form."""
+    with tempfile.TemporaryDirectory() as name:
+        path = Path(name) / "run.csv"
+        table.to_csv(path, index=False)
+        run, said = run_of(path, campaign)
+    if run is None:
+        raise SystemExit(said)
+    return run
 
 
 def outcomes(folder: Path, campaign: Path, raw: bool = True, generated: bool = True) -> list[Outcome]:

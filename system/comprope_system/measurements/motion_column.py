@@ -1,5 +1,6 @@
 """The measured motion of the car, or of the counterweight, in SI units."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,17 +10,19 @@ from scipy.integrate import trapezoid
 from comprope.errors import InputError
 
 from .campaign_file import MotionColumn
-from .columns.car_units import SPEEDS, fastest, fits_shaft, length_unit, middle_speed, time_unit
+from .columns.car_units import SHORTEST, SPEEDS, fastest, fits_shaft, length_unit, middle_speed, time_unit
 from .columns.column_names import COUNTERWEIGHT_NAMES, car_column, find_column
 from .columns.readings import written_unit
 from .columns.signal_faults import MOTION_RULES
 from .files.raw_table import RawColumn, RawTable, printable
+from .motion.position_signal import resolution
 from .run_files import RunFiles, Samples
 from .units import MOTIONS, TIMES, unit_named
 
 Floats = NDArray[np.float64]
 
 FEWEST = 20  # samples from which a motion can be estimated
+COARSE = 5e-3  # m; steps of a position from which on they are worth a remark
 START = 0.25  # s at the beginning of a record over which the position at the start is taken
 DEFAULT_UNITS = {"position": "m", "speed": "m/s", "acceleration": "m/s2"}
 SLOWEST_SAMPLING = 1.0  # s between samples of a record whose unit of time is to be believed without the car's motion
@@ -100,7 +103,21 @@ def _signal(
     if quantity == "position":
         _require_in_shaft(value, column.name, height, key, start)
     time = samples.time if samples.sure else _checked_time(files, samples, value, quantity, height)
+    if quantity == "position":
+        remarks = [*remarks, *_implausible(time, value, column.name, samples.sure)]
     return MotionSignal(time, value, quantity, column.name, (*samples.remarks, *remarks))
+
+
+def _implausible(time: Floats, value: Floats, name: str, sure: bool) -> Iterator[str]:
+    """Sentences about a motion whose size, resolution or, where the unit of time is stated, speed is hardly a car's."""
+    low, high = np.nanpercentile(value, (1.0, 99.0))
+    if high - low < SHORTEST:
+        yield f"{name}: moves by {1e3 * (high - low):.3g} mm in all: check its unit"
+    elif sure and (found := middle_speed(time, value)) is not None and not SPEEDS[0] <= found[0] <= fastest(found[1]):
+        usual = f"{SPEEDS[0]:g} to {fastest(found[1]):.3g} m/s is usual over {found[1]:.3g} m"
+        yield f"{name}: moves at {found[0]:.3g} m/s; {usual}: check the units of time and position"
+    if (step := resolution(value[np.isfinite(value)])) >= COARSE:
+        yield f"{name}: changes in steps of {1e3 * step:.2g} mm, by which the motion may be uncertain"
 
 
 def _unit(

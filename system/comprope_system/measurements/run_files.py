@@ -12,6 +12,7 @@ from .campaign_file import Channel, Reading, RunSpec
 from .columns.column_names import clock_columns, find_column
 from .columns.readings import Rules, numbers_of, unit_problem
 from .columns.signal_faults import CHANNEL_RULES
+from .columns.split_clock import with_joined_clock
 from .columns.time_axis import TimeAxis, row_times, time_axis
 from .files.file_format import FileFormat
 from .files.raw_table import RawColumn, RawTable, printable
@@ -51,7 +52,7 @@ class RunFiles:
     def table(self, file: str) -> RawTable:
         """The raw table of a file; raises `InputError`, which names it."""
         if file not in self._tables:
-            found = read_raw_table(self.folder / file, self.stated, self.within)
+            found = with_joined_clock(read_raw_table(self.folder / file, self.stated, self.within))
             self._tables[file] = found
             self._remark(file, *found.remarks)
         return self._tables[file]

@@ -14,6 +14,7 @@ from comprope.errors import InputError
 from .campaign_file import CampaignFile, Channel, RunSpec
 from .columns.column_names import find_column
 from .columns.readings import is_constant
+from .columns.signal_jumps import jump_remarks
 from .files.file_format import FileFormat
 from .motion_column import MotionSignal, mirrored, read_motion
 from .motion_columns import idle_columns, read_lateral
@@ -23,6 +24,7 @@ from .units import UNITS
 
 Floats = NDArray[np.float64]
 T = TypeVar("T")
+SAME_TIME = 1e-6  # s between samples of two clocks that are samples at one time
 __all__ = ["UNITS", "RunTable", "present_channels", "read_run_table"]
 
 
@@ -125,6 +127,8 @@ def _channel(files: RunFiles, channel: Channel, number: int, remarks: list[str])
     elif is_constant(values):
         value = float(found.values[np.isfinite(found.values)][0])
         remarks.append(f"{channel.column}: flat, {value:g} in every sample: not used in fits, and its error is not defined")
+    else:
+        remarks += [f"{channel.column}: {one}" for one in jump_remarks(found.time, values / channel.scale, channel.unit)]
     return found.time, values
 
 
@@ -154,12 +158,14 @@ def _on_one_axis(
     if not read:
         return car.time, {}, {}
     clocks = [time for time, _ in read.values()]
-    if all(np.array_equal(one, clocks[0]) for one in clocks[1:]):
+    if all(len(one) == len(clocks[0]) and np.allclose(one, clocks[0], rtol=0.0, atol=SAME_TIME) for one in clocks[1:]):
         return clocks[0], {column: values for column, (_, values) in read.items()}, {}
-    union = np.unique(np.concatenate(clocks))
+    each = np.unique(np.concatenate(clocks))
+    new = np.diff(each, prepend=-np.inf) > SAME_TIME
+    union, place = each[new], np.cumsum(new) - 1
     values, sampled = {}, {}
     for column, (time, own) in read.items():
-        at = np.searchsorted(union, time)
+        at = place[np.searchsorted(each, time)]
         values[column] = np.full(len(union), np.nan)
         values[column][at] = own
         sampled[column] = np.zeros(len(union), bool)

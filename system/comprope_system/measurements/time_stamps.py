@@ -13,6 +13,10 @@ STAMP = re.compile(
     r"(?:(?P<hour>\d{1,3}):)?(?P<minute>\d{1,2}):(?P<second>\d{2})(?:[.,:](?P<part>\d{1,9}))?"
     r"\s*(?P<half>[AaPp]\.?[Mm]\.?)?\s*(?:Z|UTC|GMT|[+-]\d{2}:?\d{2})?"
 )
+DIGITS = re.compile(  # "20261102T091201.123Z" and "20261102091201.123"
+    r"(?P<date>(?:19|20)\d{2}(?:0[1-9]|1[0-2])(?:0[1-9]|[12]\d|3[01]))[T_ -]?(?P<hour>[01]\d|2[0-3])(?P<minute>[0-5]\d)"
+    r"(?P<second>[0-5]\d)(?:[.,](?P<part>\d{1,9}))?(?P<half>)(?:Z|UTC|GMT|[+-]\d{2}:?\d{2})?"
+)
 DAY = 86_400_000_000_000  # ns
 HALF_DAY = DAY // 2
 EPOCH = date(1970, 1, 1).toordinal()
@@ -20,7 +24,12 @@ EPOCH = date(1970, 1, 1).toordinal()
 
 def is_time_stamp(text: str) -> bool:
     """Whether a text is a time of day or a date with one."""
-    return bool(STAMP.fullmatch(text.strip()))
+    return _match(text) is not None
+
+
+def _match(text: str) -> re.Match[str] | None:
+    bare = text.strip()
+    return STAMP.fullmatch(bare) or DIGITS.fullmatch(bare)
 
 
 def nanoseconds(values: pd.Series) -> tuple[NDArray[np.int64], list[int], bool]:
@@ -52,7 +61,7 @@ def _of_cell(value: Any, days: dict[str, int]) -> tuple[int, bool] | None:
         return _clock(value), False
     if isinstance(value, timedelta):
         return 1000 * (value // timedelta(microseconds=1)), False
-    match = STAMP.fullmatch(value.strip()) if isinstance(value, str) else None
+    match = _match(value) if isinstance(value, str) else None
     if match is None:
         return None
     hour, half = int(match["hour"] or 0), (match["half"] or "").lower()[:1]

@@ -99,10 +99,22 @@ def _angular_velocity(run: Run, model: RopeModel, channel: Channel, value: Float
         fitting = [one for one, scale in units.items() if 0.9 < size * scale / channel.scale < 1.1]
         advice = f'its unit is probably "{fitting[0]}"' if fitting else "check its unit and scale, and sheave.radius"
         yield f"{name}: {size:.3g} times the angular velocity of a sheave on which the rope does not slip; {advice}"
+    yield from _at_rest(run, channel, value)
     late = _delay(run, model, np.sign(gain) * value / size)
     if abs(late) > PLAUSIBILITY.delay:
         word = "later" if late > 0.0 else "earlier"
         yield f"{name}: {abs(late):.2g} s {word} than the car's motion: check the clocks, or write offsets in the run"
+
+
+def _at_rest(run: Run, channel: Channel, value: Floats) -> Iterator[str]:
+    """An angular velocity that is not zero while the car rests."""
+    rest = value[run.rest & np.isfinite(value)]
+    if channel.reference != "absolute" or len(rest) < PLAUSIBILITY.min_samples:
+        return
+    level = float(np.median(rest))
+    if abs(level) > max(PLAUSIBILITY.turning_at_rest * float(np.nanmax(np.abs(value))), 3.0 * spread_of_steps(rest)):
+        shown = f"{level / channel.scale:.3g} {channel.unit}"
+        yield f"{channel.column}: {shown} while the car rests: write its reading at rest as zero, or reference = \"rest\""
 
 
 def _follower(run: Run, model: RopeModel, name: str) -> str | None:

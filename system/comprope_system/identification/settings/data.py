@@ -108,6 +108,9 @@ class Plausibility:
     delay: float = setting(0.06, "s", "delay against the car that is told; the sheave follows within less", JUDGEMENT)
     max_delay: float = setting(2.0, "s", "largest delay that is looked for", JUDGEMENT)
     delay_step: float = setting(0.01, "s", "resolution of the delay", JUDGEMENT)
+    turning_at_rest: float = setting(
+        0.02, "1", "angular velocity of a sheave at rest, as a share of its largest, that is told", JUDGEMENT
+    )
     min_gaps: float = setting(
         0.03, "1", "share of missing samples, and of others, that tells where a sensor sees the rope", JUDGEMENT
     )

@@ -3,13 +3,20 @@
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from datetime import datetime, time
+
+import numpy as np
+import pandas as pd
 
 from comprope.errors import InputError
 
 from ..files.raw_table import RawColumn, RawTable, printable
+from ..time_stamps import is_time_stamp
 from ..units import split_unit
 
 LOOKED_AT = 200  # samples that tell whether a column counts time
+RARELY = 0.05  # share of steps that go back, or on, up to which a column is a clock, or none
+FEWEST = 5  # numbers that tell
 TIME_NAMES = frozenset(
     [
         "time", "t", "timestamp", "time_stamp", "datetime", "date_time", "date/time", "zeit", "zeitstempel", "uhrzeit",
@@ -78,8 +85,27 @@ def clock_columns(table: RawTable, stated: str | None) -> list[RawColumn]:
         return [find_column(table, stated)]
     table = replace(table, columns=tuple(one for one in table.columns if _distinct(one) > 0))
     named = [one for one in table.columns if is_time_name(one.name)]
-    counting = [one for one in named if _distinct(one) > 1]  # "response_time", the same in every row, is no clock
-    return counting or named or named_one_of(table, sorted(SAMPLE_NUMBERS))[:1]
+    counting = [one for one in named if _counts(one)]  # "response_time" and "cycle_time" are no clocks
+    found = counting or named or named_one_of(table, sorted(SAMPLE_NUMBERS))[:1]
+    return found or [one for one in table.columns if _is_stamped(one)][:1]
+
+
+def _counts(column: RawColumn) -> bool:
+    """Whether a column increases nearly everywhere, as far as it holds numbers: a clock may be set back once, or repeat times."""
+    some = column.values.iloc[:: max(len(column.values) // LOOKED_AT, 1)]
+    numbers = pd.to_numeric(some.astype(str).str.replace(",", "."), errors="coerce").dropna().to_numpy()
+    if len(numbers) < FEWEST:
+        return _distinct(column) > 1
+    steps = np.diff(numbers)
+    return bool(np.mean(steps < 0.0) < RARELY and np.mean(steps > 0.0) > RARELY)
+
+
+def _is_stamped(column: RawColumn) -> bool:
+    """Whether a column holds dates or times of day, by its type or its first cell."""
+    if pd.api.types.is_datetime64_any_dtype(column.values):
+        return True
+    first = next((one for one in column.values.head(LOOKED_AT) if not pd.isna(one) and one != ""), None)
+    return isinstance(first, datetime | time) or (isinstance(first, str) and is_time_stamp(first))
 
 
 def _distinct(column: RawColumn) -> int:

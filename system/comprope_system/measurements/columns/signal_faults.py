@@ -28,7 +28,7 @@ PLATEAU = 4  # samples of one value in a row that are a plateau, if it is entere
 JUMP = 3.0  # resolutions of the signal; a smooth peak of a coarse signal is entered by one
 DROPOUT_JUMP = 8.0  # usual steps from one sample to the next
 STUCK = 10  # equal samples in a row that noise does not allow
-REPEATING = 0.2  # share of samples that repeat the one before, from which on the resolution hides the noise
+REPEATING = 0.2  # share of samples, beside those stuck, that repeat the one before, from which on resolution hides noise
 CLIPPED_SHARE = 0.005  # least share of samples at the limit of a channel that is clipped
 HELD_SHARE = 0.9  # of changes that fall on every k-th sample of a channel that is held
 LEAST_MOVING = 20  # samples that tell how a signal changes from one to the next
@@ -76,20 +76,23 @@ def _is_far(value: float, rest: Floats) -> bool:
 
 
 def dropped_out(values: Floats) -> Finding | None:
-    """Stretches of one value, entered and left by jumps, or long in a noisy signal: the instrument showed nothing for a while."""
+    """Stretches of one value, entered and left by jumps, or long in a noisy signal: the instrument showed nothing for a while.
+
+    A long one may be at the beginning or the end, where the end of the rope is beyond the sensor.
+    """
     moved = _steps(values)
     if moved is None:
         return None
     usual = float(np.median(moved[moved > 0.0]))
-    noisy = float(np.mean(moved == 0.0)) < REPEATING
+    long = sum(stop - start - 1 for start, stop in _plateaus(values, STUCK))
+    noisy = int(np.sum(moved == 0.0)) - long < REPEATING * (len(moved) - long)
     at = np.zeros(len(values), bool)
     for start, stop in _plateaus(values, REPEATED):
         before, after = _neighbour(values, start, -1), _neighbour(values, stop - 1, 1)
-        if before is None or after is None:
-            continue
-        entered, left = abs(values[start] - before), abs(after - values[start])
-        jumps = min(entered, left) > max(DROPOUT_JUMP * usual, 2.0 * abs(after - before))
-        stuck = stop - start >= STUCK and noisy and max(entered, left) > JUMP * usual
+        beside = [one for one in (before, after) if one is not None]
+        steps = [abs(values[start] - one) for one in beside]
+        jumps = len(beside) == 2 and min(steps) > max(DROPOUT_JUMP * usual, 2.0 * abs(beside[0] - beside[1]))
+        stuck = stop - start >= STUCK and noisy and max(steps, default=0.0) > JUMP * usual
         if jumps or stuck:
             at[start:stop] = True
     return (at, f"{_samples(at)} stuck at one value between jumps: dropped out, and left out") if at.any() else None

@@ -25,6 +25,7 @@ EPOCH = (1e9, 5e9)  # s since 1970 of the years 2001 to 2128; LabVIEW's seconds 
 DAY_NUMBERS = ((2e4, 8e4), (7e5, 8e5), (2.4e6, 2.5e6))  # days of Excel and OLE, of MATLAB and Python, Julian
 SHORTEST = 0.5  # a record of a trip is longer [s]; times that span less are days or hours
 COUNTED = 20  # times that increase by 1 and are rather sample numbers than seconds
+MOSTLY = 0.5  # share of the steps of sample numbers that are 1; the others are samples that were lost
 FRACTION = 0.1  # a record shorter than this share of its first time, between 0 and 1, is a part of a day
 EPOCH_DIGITS = 6  # of a second that a double holds of an epoch or a day number
 
@@ -105,7 +106,7 @@ def _numeric(column: RawColumn, table: RawTable, stated: FileFormat) -> TimeAxis
     written = column.unit or split_unit(column.name)[1]
     unit = unit_named(written) if written else None
     base = split_unit(column.name)[0].strip()
-    counts = len(known) > 2 and bool(np.all(np.diff(known) == 1))
+    counts = _counts_samples(known)
     rated = unit is None and (stated.rate or table.rate or 1.0) != 1.0
     if counts and unit is None and not rated and len(known) >= COUNTED and not SAMPLE_NAMES.fullmatch(base):
         raise InputError(
@@ -115,6 +116,8 @@ def _numeric(column: RawColumn, table: RawTable, stated: FileFormat) -> TimeAxis
         return _in_stated_unit(numbers, known, "sample", stated.rate or table.rate)
     if unit in TIMES:
         return _scaled(numbers, known, unit)
+    if unit is None and (seconds := _of_day(numbers, known)) is not None:
+        return _scaled(seconds, seconds[np.isfinite(seconds)], "s", "clock", "time read as digits of the time of day, HHMMSS")
     if (by_size := _by_size(known)) is not None:
         return _scaled(numbers, known, *by_size)
     return replace(_scaled(numbers, known, "s"), sure=False)
@@ -166,6 +169,29 @@ def _by_size(known: NDArray) -> tuple[str, str, str] | None:
     if 0.0 < first < 1.0 and 0.0 < span < FRACTION * first:
         return "d", "clock", "time read as fractions of a day"
     return None
+
+
+def _counts_samples(known: NDArray) -> bool:
+    """Whether numbers (n,) increase by one, but for samples that were lost."""
+    steps = np.diff(known)
+    return len(known) > 2 and bool(np.all((steps >= 1) & (steps == np.round(steps))) and np.mean(steps == 1) > MOSTLY)
+
+
+def _of_day(numbers: NDArray, known: NDArray) -> NDArray | None:
+    """Seconds of times of day written as numbers, 91201.123 for 09:12:01.123; None for others.
+
+    They show by their steps of more than 40 from one minute to the next, and by digits that are no more than 59.
+    """
+
+    def seconds(values: NDArray) -> NDArray:
+        hours, rest = np.divmod(values, 10000.0)
+        return np.asarray(3600.0 * hours + 60.0 * (rest // 100.0) + rest % 100.0)
+
+    digits = bool(np.all((known >= 0) & (known < 240000) & (known % 100 < 60) & (known % 10000 < 6000)))
+    if not digits or len(known) < 2:
+        return None
+    jump = float(np.max(np.diff(known)))
+    return seconds(numbers) if jump > 40.0 and float(np.max(np.diff(seconds(known)))) < jump - 39.0 else None
 
 
 def _require_increasing(column: RawColumn, table: RawTable, axis: TimeAxis) -> None:

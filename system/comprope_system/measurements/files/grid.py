@@ -1,7 +1,7 @@
 """A table from rows of text cells: which rows are the table, and its columns with names and units."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pandas as pd
@@ -14,15 +14,23 @@ from .file_format import FileFormat
 from .numerals import is_number
 from .raw_table import RawColumn, RawTable, unique_names
 
-_RATE = re.compile(
-    r"(?:sampl\w*[ _-]?(?:rate|freq\w*)|scan[ _-]?rate|data[ _-]?rate|abtast(?:rate|frequenz)|messrate|\bfs)\W*"
-    r"(\d+(?:[.,]\d+)?(?:e[+-]?\d+)?)\W*(k?hz|samples?/s|s/s|1/s)?",
-    re.IGNORECASE,
+_FREQUENCIES = {"hz": 1.0, "khz": 1e3, "s/s": 1.0, "ks/s": 1e3, "sps": 1.0, "ksps": 1e3, "samples/s": 1.0, "1/s": 1.0}
+_INTERVALS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}
+_NUMBER = r"(?P<number>\d+(?:[.,]\d+)?(?:e[+-]?\d+)?)"
+
+
+def _stated(names: str, units: Iterable[str]) -> re.Pattern[str]:
+    """A number after one of the names, and a unit before it in brackets or behind it."""
+    unit = "|".join(sorted(map(re.escape, units), key=len, reverse=True))
+    before = rf"(?:[(\[]\s*(?P<before>{unit})\s*[)\]]\W*)?"
+    return re.compile(rf"(?:{names})\W*{before}{_NUMBER}\W*(?P<unit>(?:{unit})\b)?", re.IGNORECASE)
+
+
+_RATE = _stated(
+    r"sampl\w*[ _-]?(?:rate|freq\w*)|scan[ _-]?rate|data[ _-]?rate|abtast(?:rate|frequenz)|messrate|\bfs", _FREQUENCIES
 )
-_INTERVAL = re.compile(
-    r"(?:delta[ _]?[xt]|\bdt|sampl\w*[ _-]?(?:interval|period|time)|abtast(?:intervall|zeit)|\binterval)\W*"
-    r"(\d+(?:[.,]\d+)?(?:e[+-]?\d+)?)\W*(ms|us|µs|s|sec)?\b",
-    re.IGNORECASE,
+_INTERVAL = _stated(
+    r"delta[ _]?[xt]|\bdt|sampl\w*[ _-]?(?:interval|period|time)|abtast(?:intervall|zeit)|\binterval", _INTERVALS
 )
 
 
@@ -92,10 +100,9 @@ def _rate(rows: Sequence[Cells]) -> float | None:
     for row in rows:
         text = " ".join(row)
         if match := _RATE.search(text):
-            found.add(_number(match[1]) * (1e3 if (match[2] or "").lower() == "khz" else 1.0))
+            found.add(_number(match["number"]) * _FREQUENCIES[(match["unit"] or match["before"] or "hz").lower()])
         elif match := _INTERVAL.search(text):
-            scale = {"ms": 1e-3, "us": 1e-6, "µs": 1e-6}.get((match[2] or "s").lower(), 1.0)
-            interval = _number(match[1]) * scale
+            interval = _number(match["number"]) * _INTERVALS[(match["unit"] or match["before"] or "s").lower()]
             found |= {1.0 / interval} if interval > 0.0 else set()
     rates = {rate for rate in found if rate > 0.0}
     return rates.pop() if len(rates) == 1 else None

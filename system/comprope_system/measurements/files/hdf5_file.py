@@ -1,5 +1,6 @@
 """HDF5 files, and MATLAB files of version 7.3, which are HDF5 files."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from .file_format import FileFormat
 from .raw_table import RawTable
 
 UNIT_ATTRIBUTES = ("unit", "units", "Unit", "Units", "unit_string")
+FILL_ATTRIBUTES = ("_FillValue", "missing_value")
 NAME_ATTRIBUTES = ("columns", "names", "column_names", "fields")
 
 
@@ -43,9 +45,24 @@ def _collect(arrays: dict[str, Any], units: dict[str, str], name: str, item: Any
         own = values if values.shape[1] == len(titles) else values.T
         arrays |= {f"{name}/{title}": own[:, k] for k, title in enumerate(titles)}
         return
-    arrays[name] = values
+    arrays[name] = _unpacked(values, item.attrs)
     if unit := next((item.attrs[key] for key in UNIT_ATTRIBUTES if key in item.attrs), None):
         units[name] = _texts(unit)[0]
+
+
+def _unpacked(values: Any, attributes: Mapping[str, Any]) -> Any:
+    """The values of numbers that are stored with a scale, an offset and fill values, as netCDF files hold them."""
+    scale, offset = _number(attributes, "scale_factor", 1.0), _number(attributes, "add_offset", 0.0)
+    fills = [np.ravel(attributes[key]) for key in FILL_ATTRIBUTES if key in attributes]
+    if np.asarray(values).dtype.kind not in "fiu" or ((scale, offset) == (1.0, 0.0) and not fills):
+        return values
+    known = np.where(np.isin(values, np.concatenate(fills)), np.nan, values) if fills else values
+    return scale * known + offset
+
+
+def _number(attributes: Mapping[str, Any], key: str, default: float) -> float:
+    value = np.ravel(attributes.get(key, default))
+    return float(value[0]) if value.size == 1 and value.dtype.kind in "fiu" else default
 
 
 def _texts(value: Any) -> list[str]:

@@ -22,7 +22,8 @@ _DASHES = re.compile(r"[-–—_.*?=/\s]*")
 _MINUS = str.maketrans({"−": "-", "\u00a0": " ", "\u202f": " ", "\u2009": " "})
 _NUMBER = {
     sign: re.compile(
-        rf"[+-]?(?:\d+(?:{re.escape(sign)}\d*)?|{re.escape(sign)}\d+|\d{{1,3}}(?:[{other}' ]\d{{3}})+(?:{re.escape(sign)}\d*)?)"
+        rf"[+-]?(?:\d+(?:{re.escape(sign)}\d*)?|{re.escape(sign)}\d+"
+        rf"|[1-9]\d{{0,2}}(?:[{other}'’ ]\d{{3}})+(?:{re.escape(sign)}\d*)?)"
         r"(?:[eEdD][+-]?\d+)?"
     )
     for sign, other in ((".", ","), (",", "."))
@@ -31,7 +32,10 @@ _BEGINNINGS = frozenset("+-.,0123456789")
 
 
 def is_number(cell: str, decimal: str) -> bool:
-    """Whether a cell is a number with this decimal sign; thousands may be separated by the other, a blank or an apostrophe."""
+    """Whether a cell is a number with this decimal sign; thousands may be separated by the other, a blank or an apostrophe.
+
+    A number that begins with 0 has no thousands: "0,123" is 0.123, with a decimal comma.
+    """
     if cell[:1] in _BEGINNINGS and _is_plain(cell, decimal):
         return True
     return bool(_NUMBER[decimal].fullmatch(cell.translate(_MINUS).strip()))
@@ -63,7 +67,7 @@ def is_infinite(cell: str) -> bool:
 def parse(cell: str, decimal: str) -> float:
     """The number of a cell for which `is_number` is true."""
     other = "," if decimal == "." else "."
-    text = re.sub(rf"[{other}' ]", "", cell.translate(_MINUS).strip()).replace(decimal, ".")
+    text = re.sub(rf"[{other}'’ ]", "", cell.translate(_MINUS).strip()).replace(decimal, ".")
     return float(text.replace("D", "E").replace("d", "e"))
 
 

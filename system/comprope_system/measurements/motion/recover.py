@@ -32,6 +32,7 @@ ROUNDS, MOST_SINGLE = 4, 0.05  # of leaving out the worst sample of each run of 
 OUTSTANDING = 3.0  # times the misfit of its neighbours by which a failed sample misses
 TOO_MANY = 0.1  # share of samples left out beyond which the rest is not believed either
 FAST = 50.0  # m/s2; beyond a safety gear's deceleration, so that an impact or a failure of the sensor is worth a remark
+NO_TRIP = "the car returns to its height without a rest, or moved in a gap of the record; the motion is taken as it is"
 MOST_LEFT_OUT = 0.01  # share of samples left out as failures of the sensor without a remark
 
 
@@ -81,7 +82,7 @@ def _one(signal: Signal, good: NDArray[np.bool_], span: tuple[float, float]) -> 
     departs, arrives = _rests(signal, span)
     smooth = recover_smooth_trip(signal, arrives) if departs else None
     if smooth is None:
-        return _exact(kept, span, "the car returns to its height without a rest; the motion is taken as it is" if departs else "")
+        return _exact(kept, span, NO_TRIP if departs else "")
     return _checked(smooth, kept, span)
 
 

@@ -22,7 +22,7 @@ EVIDENCE = 10.0  # decrease of -2 log likelihood from which on a spline is added
 
 
 def recover_smooth_trip(signal: Signal, arrives: bool) -> Trip | None:
-    """The smooth trip estimated from a signal that begins at rest; None where the car ends where it began.
+    """The smooth trip estimated from a signal that begins at rest; None where the car ends where it began, or moved unseen.
 
     Outliers are left out. `arrives`: the record ends at rest.
     """
@@ -39,13 +39,15 @@ def recover_smooth_trip(signal: Signal, arrives: bool) -> Trip | None:
 
 
 def _guess(time: Floats, position: Floats, noise: float) -> Guess | None:
-    """Initial guess of the trip, None where it ends where it began."""
+    """Initial guess of the trip, None where it ends where it began, or none is seen."""
     first = float(np.median(position[time <= time[0] + LEVEL]))
     last = float(np.median(position[time >= time[-1] - LEVEL]))
     away, back = _lasting(np.abs(position - first) > 6.0 * noise), _lasting(np.abs(position - last)[::-1] > 6.0 * noise)
     if away is None or back is None or abs(last - first) < 6.0 * noise:
         return None
     start, stop = float(time[away]), float(time[len(time) - 1 - back])
+    if start >= stop:  # it moved in a gap of the record
+        return None
     quarter, three = (time[np.argmax((position - first) / (last - first) > part)] for part in (0.25, 0.75))
     speed = abs(last - first) / max(2.0 * float(three - quarter), 0.1)
     return Guess(first, last - first, start, stop, speed)

@@ -1,0 +1,30 @@
+"""Variants of one run as other loggers would have written it, generated from its plain CSV file."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pandas as pd
+
+from .binaries import binaries
+from .dialects import columns, encodings, labview, lines_around, separators
+from .further_binaries import further_binaries
+from .further_texts import number_notations, shapes
+from .further_times import other_clocks, written_clocks
+from .further_values import blind_and_broken, stated_wrongly
+from .times import numeric_times, time_faults, time_stamps
+from .values import faults, missing, units
+from .variant import Variant
+
+Group = Callable[[pd.DataFrame], Iterator[Variant]]
+READING: tuple[Group, ...] = (
+    separators, lines_around, columns, labview, encodings, numeric_times, time_stamps, time_faults, units, missing, binaries,
+)  # fmt: skip
+FURTHER: tuple[Group, ...] = (number_notations, shapes, written_clocks, other_clocks, further_binaries)
+__all__ = ["READING", "Variant", "variants"]
+
+
+def variants(plain: Path) -> Iterator[Variant]:
+    """All variants of a plain.csv."""
+    table = pd.read_csv(plain)
+    for group in (*READING, *FURTHER, faults, stated_wrongly, blind_and_broken):
+        yield from group(table)
