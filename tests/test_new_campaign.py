@@ -158,3 +158,65 @@ def test_an_answer_that_is_none_and_files_that_are_none_are_refused(tmp_path, fi
     with pytest.raises(InputError, match=r"sheave\.mass = heavy: a number from 0\.1"):
         comprope_system.new(tmp_path / "c", files[1:], model=MODEL, ask=lambda question, default: "heavy")
     assert not (tmp_path / "c" / "campaign.toml").exists()
+
+
+def split(files, folder, shift=0.0, stamped=False) -> list[Path]:
+    """Each run in two files: the drive's, and one of the lasers at another rate, in other units."""
+    written = []
+    for k, (file, sep, decimal) in enumerate(((files[0], ",", "."), (files[1], ";", ","))):
+        table = pd.read_csv(file, sep=sep, decimal=decimal, encoding="latin-1" if k else "utf-8")
+        time = table["Zeit [ms]"] * 1e-3 + shift
+        if stamped:
+            time = (pd.Timestamp("2026-11-02 09:00") + pd.Timedelta(hours=k) + pd.to_timedelta(time, unit="s")).astype(str)
+        lasers = [name for name in table.columns if name.startswith("Laser")]
+        drive = table.drop(columns=lasers).assign(time=time).drop(columns="Zeit [ms]")
+        laser = table[lasers].rename(columns=lambda name: name.replace("[mm]", "[cm]")) * 0.1 if k else table[lasers]
+        drive.to_csv(folder / f"run{k}_drive.csv", index=False)
+        laser.assign(time=time)[1::2].to_csv(folder / f"run{k}_laser.csv", index=False)
+        written += [folder / f"run{k}_drive.csv", folder / f"run{k}_laser.csv"]
+    return written
+
+
+@pytest.mark.parametrize("stamped", [False, True])
+def test_files_without_the_car_are_part_of_the_run_that_their_names_or_dates_tell(tmp_path, files, stamped):
+    parts = split(files, files[0].parent, stamped=stamped)
+    result = comprope_system.new(tmp_path / "campaign", parts, model=MODEL)
+    assert result.check.problems == ()
+    told = "likely: by date and time" if stamped else "likely: by its name"
+    assert result.to_json()["runs"][1]["with"] == {"run1_laser.csv": told}
+    assert f"run0_drive.csv: fit, with run0_laser.csv ({told})" in result.summary()
+    written = read_campaign_file(tmp_path / "campaign" / "campaign.toml")
+    first, second = written.runs
+    assert first.files == dict.fromkeys(("Laser GG unten [mm]", "Laser Kabine [mm]"), "run0_laser.csv")
+    assert {key: one.unit for key, one in second.readings.items()} == dict.fromkeys(first.files, "cm")
+    assert written.channels[-1].noise == pytest.approx(0.3, rel=0.3)
+    for k, run in enumerate(one.run for one in result.check.runs):
+        laser = run.values["Laser GG unten [mm]"]
+        truth = raw(*((2.0, 9.0, 1) if k == 0 else (11.0, -5.0, 2)))["Laser GG unten [mm]"]
+        assert np.allclose(laser[np.isfinite(laser)], 1e-3 * truth[1::2], atol=1e-5)
+
+
+def test_files_may_be_stated_together_and_a_file_of_no_run_is_refused(tmp_path, files):
+    parts = split(files, files[0].parent)
+    other = [one.rename(one.with_name(f"{name}.csv")) for one, name in zip(parts, ("a", "x", "b", "y"), strict=True)]
+    with pytest.raises(InputError, match=r"x.csv: holds no motion of the car, .* RUN\+x.csv with one of a.csv, b.csv"):
+        comprope_system.new(tmp_path / "campaign", other, model=MODEL)
+    stated = [f"{other[1]}+{other[0]}", f"{other[2]}+{other[3]}"]
+    result = comprope_system.new(tmp_path / "campaign", stated, model=MODEL)
+    assert result.check.problems == () and result.parts["a.csv"] == {"x.csv": "sure: as stated"}
+
+
+def test_a_channel_named_value_is_named_by_its_file(tmp_path, files):
+    table = raw(2.0, 9.0, 1)
+    folder = files[0].parent
+    table[["Zeit [ms]", "Kabinenposition [mm]"]].to_csv(folder / "up_drive.csv", index=False)
+    for name, column in (("cw_low", "Laser GG unten [mm]"), ("car_low", "Laser Kabine [mm]")):
+        table[["Zeit [ms]", column]].rename(columns={column: "Value [mm]"}).to_csv(folder / f"up_laser_{name}.csv", index=False)
+    result = comprope_system.new(tmp_path / "campaign", sorted(folder.glob("up_*.csv")), model=MODEL)
+    assert result.check.problems == ()
+    written = read_campaign_file(tmp_path / "campaign" / "campaign.toml")
+    assert {one.sensor: written.runs[0].files[one.column] for one in written.channels} == {
+        "cw_low": "up_laser_cw_low.csv", "car_low": "up_laser_car_low.csv"}  # fmt: skip
+    assert set(written.runs[0].columns.values()) == {"Value [mm]"}
+    run = result.check.runs[0].run
+    assert np.allclose(run.values[written.channels[0].column], 1e-3 * table["Laser Kabine [mm]"])

@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 
 from ..measurements.files.raw_table import printable
 from .column_roles import Role
+from .run_entries import RunEntry
 
 
 def campaign_text(
     name: str, model: str, tables: Mapping[str, Mapping[str, object]], channels: Sequence[tuple[str, Role, float | None]],
-    runs: Sequence[tuple[str, str, Mapping[str, str], Mapping[str, object]]],
+    runs: Sequence[RunEntry],
 ) -> str:  # fmt: skip
     """The file: name, model, tables such as `[car]` and `[plant]`, channels with noise, runs with role, names and changes."""
     lines = ["# Written by `comprope new`. Check what each column was taken for; docs: first_campaign.md", ""]
@@ -24,22 +25,25 @@ def campaign_text(
         reference = "absolute" if role.quantity == "sheave_angular_velocity" else "rest"
         lines += [f"unit = {_value(role.unit)}", *(["sign = -1"] if role.sign < 0 else []), f"reference = {_value(reference)}"]
         lines += [*([f"noise = {noise:g}"] if noise else []), ""]
-    for file, role_of_run, columns, changes in runs:
-        lines += ["[[runs]]", f"file = {_value(file)}", f"role = {_value(role_of_run)}"]
-        for key, table in (("columns", columns), ("set", changes)):
-            if table:
-                lines.append(f"{key} = {_value(table)}")
-        lines.append("")
+    for run in runs:
+        lines += ["[[runs]]", f"file = {_value(run.file)}", f"role = {_value(run.role)}"]
+        tables_of_run = {"files": run.files, "columns": run.columns, "readings": run.readings, "set": run.set}
+        lines += [*(f"{key} = {_value(table)}" for key, table in tables_of_run.items() if table), ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
 def _key(key: str) -> str:
     """A key in TOML, between quotation marks if it is not plain."""
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _text(key)
 
 
 def _value(value: object) -> str:
-    """A value in TOML, whose strings are written as those of JSON, and tables in one line."""
+    """A value in TOML; tables in one line."""
     if isinstance(value, Mapping):
         return f"{{ {', '.join(f'{_key(name)} = {_value(one)}' for name, one in value.items())} }}"
-    return json.dumps(value, ensure_ascii=False)
+    return _text(value)
+
+
+def _text(value: object) -> str:
+    """A text or number in TOML, which is written as in JSON but for the character DEL."""
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,6 +1,6 @@
 """Which columns of several files are one channel: by name, or by what they hold where the names differ."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from comprope.rope.effects import RopeModel
@@ -9,14 +9,14 @@ from ..measurements.columns.column_names import plain_name
 from ..measurements.columns.readings import written_unit
 from ..measurements.units import is_unit, unit_named
 from .column_roles import GUESS, LIKELY, SURE, Evidence, Role, role_of
-from .survey import SurveyedRun
+from .survey import SurveyedColumn, SurveyedRun
 
 
 def roles(runs: Sequence[SurveyedRun], model: RopeModel) -> dict[str, Role]:
     """The role of each column by its name in the first file that has it; columns that differ in separators only are the same."""
     names: dict[str, str] = {}
     for run in runs:
-        for name in run.samples:
+        for name in run.columns:
             names.setdefault(plain_name(name), name)
     found = {name: role_of(name, _evidence(runs, plain, model), model.sensors) for plain, name in names.items()}
     having = {name: {run.file for run in runs if own_name(run, name)} for name in found}
@@ -25,30 +25,29 @@ def roles(runs: Sequence[SurveyedRun], model: RopeModel) -> dict[str, Role]:
 
 def own_name(run: SurveyedRun, name: str) -> str | None:
     """The name of a column in a run, which may differ in unit and separators; None where the run has no such column."""
-    return next((own for own in run.samples if plain_name(own) == plain_name(name)), None)
-
-
-def renamed(run: SurveyedRun, found: Mapping[str, Role]) -> dict[str, str]:
-    """The channels that have other names in a run, with these names."""
-    return {role.same_as: own for name, role in found.items() if role.same_as and (own := own_name(run, name))}
+    return next((own for own in run.columns if plain_name(own) == plain_name(name)), None)
 
 
 def _evidence(runs: Sequence[SurveyedRun], plain: str, model: RopeModel) -> list[Evidence]:
     found = []
     for run in runs:
-        for name, samples in run.samples.items():
+        for name, column in run.columns.items():
             if plain_name(name) == plain:
-                written = written_unit(run.columns[name])
-                rolling = run.speed(samples.time) / model.sheave.radius
-                unit = (unit_named(written) or (written if is_unit(written) else None)) if written else None
-                found.append(Evidence(samples.values, rolling, unit))
+                rolling = run.speed(column.samples.time) * column.related / model.sheave.radius
+                found.append(Evidence(column.samples.values, rolling, stated_unit(column)))
     return found
+
+
+def stated_unit(column: SurveyedColumn) -> str | None:
+    """The unit that a file states for a column, if it is one."""
+    written = written_unit(column.raw)
+    return (unit_named(written) or (written if is_unit(written) else None)) if written else None
 
 
 def _one_each(found: dict[str, Role], having: dict[str, set[str]]) -> dict[str, Role]:
     """The roles with one column for each sensor and each quantity of the sheave: the surest.
 
-    Columns with the same role, unit and sign in other files are the same under another name; further ones are left out. `having`
+    Columns with the same role and sign in other files are the same under another name; further ones are left out. `having`
     are the files that have each column.
     """
     order = {SURE: 0, LIKELY: 1, GUESS: 2}
@@ -61,7 +60,7 @@ def _one_each(found: dict[str, Role], having: dict[str, set[str]]) -> dict[str, 
             result[name] = Role(None, certainty=GUESS, why="a lateral displacement, but at which sensor of the model?")
         elif (place := (role.quantity, role.sensor)) in taken:
             first = found[taken[place]]
-            alike = (role.unit, role.sign) == (first.unit, first.sign) and role.certainty != GUESS
+            alike = role.sign == first.sign and role.certainty != GUESS
             if alike and having[name].isdisjoint(having[taken[place]]):
                 having[taken[place]] |= having[name]
                 result[name] = replace(role, quantity=None, same_as=taken[place])

@@ -14,12 +14,16 @@ from .column_roles import Role
 
 @dataclass(frozen=True, repr=False)
 class NewCampaign(Result):
-    """A campaign that was written: `path` of campaign.toml, what each column was taken for, and the check of the campaign."""
+    """A campaign that was written: `path` of campaign.toml, what each column was taken for, and the check of the campaign.
+
+    `parts` are the other files of each run, with how surely and why they belong to it.
+    """
 
     path: Path
     car: str
     columns: Mapping[str, Role]
     roles: Mapping[str, str]
+    parts: Mapping[str, Mapping[str, str]]
     remarks: tuple[str, ...]
     check: CheckResult
 
@@ -32,7 +36,8 @@ class NewCampaign(Result):
         """What each column was taken for and how surely, the role of each run, and the check."""
         rows = self.to_dataframe()
         lines = [f"{row.column}: {row.taken_for} ({row.certainty}: {row.why})" for row in rows.itertuples(index=False)]
-        runs = [f"{file}: {role}" for file, role in self.roles.items()]
+        runs = [f"{file}: {role}{''.join(f', with {one} ({why})' for one, why in self.parts[file].items())}"
+                for file, role in self.roles.items()]  # fmt: skip
         parts = [[self.headline()], ["Columns:", *(f"  {one}" for one in lines)], ["Runs:", *(f"  {one}" for one in runs)]]
         if self.remarks:
             parts.append(["Remarks:", *(f"  {one}" for one in self.remarks)])
@@ -48,7 +53,7 @@ class NewCampaign(Result):
              "same_as": one.same_as, "certainty": one.certainty, "why": one.why}
             for name, one in self.columns.items()
         ]  # fmt: skip
-        runs = [{"file": file, "role": role} for file, role in self.roles.items()]
+        runs = [{"file": file, "role": role, "with": dict(self.parts[file])} for file, role in self.roles.items()]
         return {
             "campaign": str(self.path), "car": self.car, "columns": columns, "runs": runs, "remarks": list(self.remarks),
             "check": self.check.to_json(),

@@ -1,6 +1,6 @@
 """What raw logger files hold: the car, the columns that are channels, their noise at rest, and the travel of each run."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,26 +19,48 @@ from ..measurements.motion.recover import recover_trip
 from ..measurements.motion.trip import Trip
 from ..measurements.motion_column import MotionSignal, read_motion
 from ..measurements.run_files import RunFiles, Samples
+from .run_grouping import RunGroup, words
 
 Floats = NDArray[np.float64]
 
-FEWEST = 20  # samples at rest for an estimate of the noise
+SAYS_NOTHING = frozenset(
+    [
+        "value", "values", "wert", "messwert", "data", "signal", "y", "reading", "channel", "kanal", "ch", "ai", "in", "input",
+        "column", "measurement",
+    ]
+)  # fmt: skip
+FEWEST = 20  # samples at the beginning and the end of a column that tell how far it moved
 SHORTEST_TRIP = 1.0  # m that a column must reach to be taken for the car's position by its values
 ONE_WAY = 0.9  # share of its reach between the first and the last position of such a column
-MAD_FACTOR = 1.4826  # standard deviation over median absolute deviation of a normal distribution
+
+
+@dataclass(frozen=True)
+class SurveyedColumn:
+    """A further column of numbers: its samples, the file that has it, and whether its clock is related to that of the car."""
+
+    raw: RawColumn
+    samples: Samples
+    file: str
+    related: bool = True
 
 
 @dataclass(frozen=True)
 class SurveyedRun:
-    """One file: the motion of the car, its trip, the samples of each further column of numbers, and the assumed unit of time."""
+    """The files of a run: the motion of the car, its trip, each further column of numbers, and the assumed unit of time.
 
-    file: str
+    A column of another file than the car's is named by that file as well, where its own name says nothing.
+    """
+
+    group: RunGroup
     car: MotionSignal
     trip: Trip | None
-    samples: dict[str, Samples]
-    columns: dict[str, RawColumn]
+    columns: dict[str, SurveyedColumn]
     time_unit: str | None
-    remarks: tuple[str, ...]
+
+    @property
+    def file(self) -> str:
+        """The file with the car's motion, which names the run."""
+        return self.group.file
 
     @property
     def travel(self) -> float:
@@ -59,12 +81,12 @@ class SurveyedRun:
         return max(self.trip.rest_before - float(self.car.time[0]), 0.0) if self.trip is not None else 0.0
 
 
-def survey(folder: Path, files: Sequence[str], model: RopeModel, car: MotionColumn) -> list[SurveyedRun]:
-    """The content of files in `folder`; raises `InputError` with one line for each that holds no motion of a car."""
+def survey(folder: Path, groups: Sequence[RunGroup], model: RopeModel, car: MotionColumn) -> list[SurveyedRun]:
+    """The content of the runs' files in `folder`; raises `InputError` with one line for each run without a motion of a car."""
     found, problems = [], []
-    for file in files:
+    for group in groups:
         try:
-            found.append(_run(folder, file, model, car))
+            found.append(_run(folder, group, model, car))
         except InputError as error:
             problems += str(error).splitlines()
     if problems:
@@ -72,27 +94,53 @@ def survey(folder: Path, files: Sequence[str], model: RopeModel, car: MotionColu
     return found
 
 
-def _run(folder: Path, file: str, model: RopeModel, stated: MotionColumn) -> SurveyedRun:
-    files = RunFiles(folder, RunSpec(file=file), FileFormat(), folder)
-    table = files.table(file)
+def _run(folder: Path, group: RunGroup, model: RopeModel, stated: MotionColumn) -> SurveyedRun:
+    files = RunFiles(folder, RunSpec(file=group.file), FileFormat(), folder)
+    table = files.table(group.file)
     if not car_column(table) and not car_column(table, COUNTERWEIGHT_NAMES):
-        stated = MotionColumn(column=_car_by_values(files, file, model.shaft.height))
+        stated = MotionColumn(column=_car_by_values(files, group.file, model.shaft.height))
     car = _car(files, stated, model.shaft.height)
-    samples, columns = {}, {}
-    for column in files.table(file).columns:
-        if column.name == car.column or is_time_name(column.name):
-            continue
-        try:
-            samples[column.name] = files.samples(column, file, Reading(), CHANNEL_RULES)
-        except InputError:
-            continue  # a column of texts
-        columns[column.name] = column
+    columns = {name: one for name, one in _columns(files, group.file).items() if name != car.column}
+    for other in group.others:
+        columns |= _columns(files, other, taken=columns)
     try:
         trip = recover_trip(car.time, car.value) if car.quantity == "position" else None
     except InputError:
         trip = None
     unit = files.assumed_unit if files.assumed_unit != "s" else None
-    return SurveyedRun(file, car, trip, samples, columns, unit, tuple(files.remarks))
+    return SurveyedRun(group, car, trip, columns, unit)
+
+
+def _columns(files: RunFiles, file: str, taken: Collection[str] = ()) -> dict[str, SurveyedColumn]:
+    """The columns of numbers of one file by names that are not `taken`."""
+    unrelated = RunFiles(files.folder, RunSpec(file=file), FileFormat(), files.within)
+    raw = [one for one in files.table(file).columns if not is_time_name(one.name)]
+    found: dict[str, SurveyedColumn] = {}
+    for column in raw:
+        for read, related in ((files, True), (unrelated, False)):
+            try:
+                samples = read.samples(column, file, Reading(), CHANNEL_RULES)
+            except InputError:
+                continue  # a column of texts, or times that are on no clock of the run
+            found[column.name] = SurveyedColumn(column, samples, file, related)
+            break
+    if file == files.spec.file:
+        return found
+    return dict(zip(_names(list(found), file, files.spec.file, taken), found.values(), strict=True))
+
+
+def _names(names: Sequence[str], file: str, main: str, taken: Collection[str]) -> list[str]:
+    """Names of the columns of another file than the run's: with what its name adds, where their own say nothing or are taken."""
+    adds = " ".join(one for one in words(file) if one not in words(main)) or Path(file).stem
+    plain, found = {plain_name(one) for one in taken}, []
+    for name in names:
+        shown = f"{adds} {name}" if plain_name(name) in plain or _says_nothing(name) else name
+        found.append(shown if plain_name(shown) not in plain else f"{Path(file).stem} {name}")
+    return found
+
+
+def _says_nothing(name: str) -> bool:
+    return plain_name(name).rstrip("0123456789").strip("_") in SAYS_NOTHING
 
 
 def _car(files: RunFiles, stated: MotionColumn, height: float) -> MotionSignal:
@@ -132,16 +180,3 @@ def _car_by_values(files: RunFiles, file: str, height: float) -> str:
         path = files.folder / file
         raise InputError(f"{path}: which column is the position of the car? Rename it car_position; it may be: {columns}")
     return found[0]
-
-
-def noise(runs: Sequence[SurveyedRun], name: str) -> float | None:
-    """Standard deviation of a column's samples at rest, in its own unit, median over the runs; None without rests."""
-    found = []
-    for run in runs:
-        for own, samples in run.samples.items():
-            if plain_name(own) == plain_name(name):
-                rest = samples.values[(samples.time <= samples.time[0] + run.rest) & np.isfinite(samples.values)]
-                if len(rest) >= FEWEST:
-                    steps = np.diff(rest)
-                    found.append(MAD_FACTOR * float(np.median(np.abs(steps - np.median(steps)))) / 2.0**0.5)
-    return float(f"{np.median(found):.2g}") if found and np.median(found) > 0.0 else None

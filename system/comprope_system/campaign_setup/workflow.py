@@ -11,11 +11,13 @@ from ..identification.workflow import check
 from ..measurements.campaign_file import MotionColumn
 from ..measurements.files.reader import require_regular_file
 from .campaign_text import campaign_text
-from .column_matching import renamed, roles
+from .column_matching import roles
 from .model_choice import choose_model, copied
 from .questions import Ask, asked_changes, asked_role, without_guess
 from .result import NewCampaign
-from .survey import SurveyedRun, noise, survey
+from .run_entries import noise, run_entry
+from .run_grouping import grouped
+from .survey import SurveyedRun, survey
 
 HELD_OUT = 2  # runs from which on one is held out
 SHEAVE_OF_RUN = 'where it was another, write set = { "sheave.mass" = ..., "sheave.inertia" = ... } in its run'
@@ -29,8 +31,10 @@ def new(
     model: str | Path | RopeModel | None = None,
     ask: Ask | None = None,
 ) -> NewCampaign:
-    """Describe raw logger files, one for each run: write campaign.toml, model and files into a folder; nothing is replaced.
+    """Describe raw logger files: write campaign.toml, model and files into a folder; nothing is replaced.
 
+    Each file with the car's motion is a run. One without is part of the run to which it belongs by date and time or by its name;
+    files of one run may be stated together, "drive.csv+lasers.csv".
     `model` is a model file, a data sheet (a model file with the rope's construction in place of its mass and stiffness, which are
     estimated), a preset's name or a `RopeModel`, by default the only one in the folder or the preset tower50.
     `ask(question, default)` returns the answer to what the files do not say; an answer that is not accepted is asked for again.
@@ -39,22 +43,24 @@ def new(
     """
     folder = Path(campaign)
     path = folder / "campaign.toml"
-    _require_new(path, files)
+    stated = [_together(one) for one in files]
+    _require_new(path, [one for together in stated for one in together])
     folder.mkdir(parents=True, exist_ok=True)
     chosen = choose_model(folder, model, ask)
     loaded, remarks = chosen.model, list(chosen.remarks)
-    surveyed = survey(folder, [copied(Path(one), folder) for one in files], loaded, MotionColumn())
+    groups = grouped(folder, [[copied(one, folder) for one in together] for together in stated])
+    surveyed = survey(folder, groups, loaded, MotionColumn())
     found = roles(surveyed, loaded)
     found = {name: asked_role(name, role, loaded, ask) if ask else without_guess(role) for name, role in found.items()}
     used = {column: role for column, role in found.items() if role.quantity}
-    channels = [(column, role, noise(surveyed, column)) for column, role in used.items()]
+    channels = [(column, role, noise(surveyed, column, role)) for column, role in used.items()]
     if not channels:
         columns = ", ".join(found)
         raise InputError(f"{folder}: no column is a channel that is known; describe them in campaign.toml: {columns}")
     held_out = _held_out(surveyed)
     by_file = {run.file: "validate" if run.file == held_out else "fit" for run in surveyed}
     changes = {run.file: asked_changes(run.file, loaded, ask) if ask else {} for run in surveyed}
-    runs = [(run.file, by_file[run.file], renamed(run, found), changes[run.file]) for run in surveyed]
+    runs = [run_entry(run, by_file[run.file], found, changes[run.file]) for run in surveyed]
     tables = _tables(surveyed) | {"plant": {key: {"relative": one} for key, one in chosen.tolerances.items()}}
     with atomic_write(path) as temporary:
         temporary.write_text(campaign_text(folder.resolve().name, chosen.file, tables, channels, runs), "utf-8")
@@ -62,17 +68,23 @@ def new(
                 for run in surveyed if run.trip is not None and run.rest < SHORT_REST]  # fmt: skip
     if not ask:
         remarks.append(f"the sheave of the model, {loaded.sheave.mass:g} kg, is taken in every run; {SHEAVE_OF_RUN}")
-    return NewCampaign(path, surveyed[0].car.column, found, by_file, tuple(remarks), check(path))
+    parts = {run.file: run.group.others for run in surveyed}
+    return NewCampaign(path, surveyed[0].car.column, found, by_file, parts, tuple(remarks), check(path))
 
 
-def _require_new(path: Path, files: Sequence[str | Path]) -> None:
+def _together(one: str | Path) -> list[Path]:
+    """The files of one argument: several of one run are written with + between them."""
+    return [Path(one)] if Path(one).exists() or "+" not in str(one) else [Path(part) for part in str(one).split("+")]
+
+
+def _require_new(path: Path, files: Sequence[Path]) -> None:
     """Raise `InputError` if there is a campaign already, or no files, or some that are none."""
     if path.exists():
         raise InputError(f"{path}: exists and is not replaced; remove it, or name another folder")
     if not files:
         raise InputError("no files: name at least one file of a run")
     for one in files:
-        require_regular_file(Path(one), None)
+        require_regular_file(one, None)
 
 
 def _tables(runs: Sequence[SurveyedRun]) -> dict[str, dict[str, object]]:

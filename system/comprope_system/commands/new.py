@@ -12,7 +12,9 @@ from ._parameters import JSON
 from ._terminal import OutputFile, finish, require_files
 
 FOLDER = Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder in which campaign.toml is written.")]
-FILES = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Files of a logger, one for each run.")]
+FILES = Annotated[
+    list[Path], typer.Argument(metavar="FILE...", help="Files of a logger; those of one run may be joined: drive.csv+lasers.csv.")
+]
 MODEL = Annotated[str | None, typer.Option(metavar="MODEL.toml", help="Model file, data sheet or preset; default tower50.")]
 YES = Annotated[bool, typer.Option("--yes", help="Ask nothing.")]
 

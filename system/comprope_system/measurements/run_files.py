@@ -143,6 +143,9 @@ class RunFiles:
                 f"{name}: its times are {kinds[axis.kind]}, those of the car {kinds[self._start.kind]}: write the seconds to "
                 f'add to them in the run, offsets = {{ "{file}" = ... }}'
             )
+        if axis.kind == "relative" and file not in (self.spec.file, *self.spec.offsets):
+            shown = f'offsets = {{ "{printable(file)}" = ... }}'
+            self._remark(file, f"its times are taken to be those of {printable(self.spec.file)}; otherwise write {shown}")
         late = axis.origin - self._start.origin if axis.kind == self._start.kind else 0.0
         return axis.seconds + (late + offset) if late + offset != 0.0 else axis.seconds
 

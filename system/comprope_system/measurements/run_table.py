@@ -1,6 +1,6 @@
 """The table of one measured run in SI units, with time from zero, from whatever files hold it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -24,6 +24,7 @@ from .units import UNITS
 
 Floats = NDArray[np.float64]
 T = TypeVar("T")
+OVERLAP = 0.5  # share of the record of the car during which channels are recorded as well
 SAME_TIME = 1e-6  # s between samples of two clocks that are samples at one time
 __all__ = ["UNITS", "RunTable", "present_channels", "read_run_table"]
 
@@ -70,6 +71,7 @@ def read_run_table(folder: Path, spec: RunSpec, described: CampaignFile, height:
         raise InputError("\n".join(dict.fromkeys(problems)))
     car, counterweight = _acting(car, counterweight, height)
     signals = {"car": car, **lateral} | ({} if counterweight is None else {"counterweight": counterweight})
+    remarks += _elsewhere_in_time(car.time, read)
     said = [*files.remarks, *(remark for one in signals.values() for remark in one.remarks), *remarks]
     said += idle_columns(files, described, [one.column for one in signals.values()])
     return _from_zero(RunTable(car.time, car, counterweight, {}, tuple(dict.fromkeys(said)), {}, lateral, files.started), read)
@@ -130,6 +132,17 @@ def _channel(files: RunFiles, channel: Channel, number: int, remarks: list[str])
     else:
         remarks += [f"{channel.column}: {one}" for one in jump_remarks(found.time, values / channel.scale, channel.unit)]
     return found.time, values
+
+
+def _elsewhere_in_time(car: Floats, read: Mapping[str, tuple[Floats, Floats]]) -> list[str]:
+    """Sentences about channels that were recorded during less than half of the record of the car."""
+    found = []
+    for column, (time, _) in read.items():
+        both = min(float(car[-1]), float(time[-1])) - max(float(car[0]), float(time[0]))
+        spans = f"{time[0]:.4g} to {time[-1]:.4g} s, those of the car from {car[0]:.4g} to {car[-1]:.4g} s"
+        if both < OVERLAP * float(car[-1] - car[0]):
+            found.append(f"{column}: its times reach from {spans}: check the clocks and units of time of the files")
+    return found
 
 
 def _from_zero(table: RunTable, read: dict[str, tuple[Floats, Floats]]) -> RunTable:
