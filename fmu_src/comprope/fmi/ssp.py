@@ -135,8 +135,12 @@ def _unit(variable: Variable) -> dict[str, str]:
 def _add_parameters(element: ET.Element, parameters: Mapping[str, Value]) -> None:
     bindings = ET.SubElement(element, _tag("ssd:ParameterBindings"))
     values = ET.SubElement(ET.SubElement(bindings, _tag("ssd:ParameterBinding")), _tag("ssd:ParameterValues"))
-    chosen = ET.SubElement(ET.SubElement(values, _tag("ssv:ParameterSet"), version="1.0", name="own"), _tag("ssv:Parameters"))
+    parameter_set = ET.SubElement(values, _tag("ssv:ParameterSet"), version="1.0", name="own")
+    chosen = ET.SubElement(parameter_set, _tag("ssv:Parameters"))
     for name, value in parameters.items():
         kind = "Boolean" if isinstance(value, bool) else "Real"
         parameter = ET.SubElement(chosen, _tag("ssv:Parameter"), name=name)
         ET.SubElement(parameter, _tag(f"ssv:{kind}"), value=str(value).lower())
+    # Optional, but pyssp-standard 0.9 writes no set back that has none.
+    unit = ET.SubElement(ET.SubElement(parameter_set, _tag("ssv:Units")), _tag("ssc:Unit"), name="1")
+    ET.SubElement(unit, _tag("ssc:BaseUnit"))

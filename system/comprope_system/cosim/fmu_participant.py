@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stderr, suppress
 from ctypes import byref
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,8 @@ class FmuParticipant:
         self.name = name
         self._start = dict(start)
         self._messages: list[str] = []
+        self._number = next(_NUMBERS)
+        _RECEIVERS[self._number] = self._messages
         self._running = self._failed = False
         self._folder = fmpy.extract(str(path))
         try:
@@ -39,6 +42,7 @@ class FmuParticipant:
             self._instance = self._instantiated(description)
         except BaseException:
             shutil.rmtree(self._folder, ignore_errors=True)
+            del _RECEIVERS[self._number]
             raise
 
     def __enter__(self) -> "FmuParticipant":
@@ -92,6 +96,7 @@ class FmuParticipant:
                 instance.terminate()
         with redirect_stderr(io.StringIO()), suppress(Exception):
             instance.freeInstance()
+        del _RECEIVERS[self._number]
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def _instantiated(self, description: Any) -> Any:
@@ -101,7 +106,7 @@ class FmuParticipant:
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName=self.name,
         )
-        self._callbacks = _callbacks(self._messages)
+        self._callbacks = _callbacks(self._number)
         errors = io.StringIO()
         try:
             with redirect_stderr(errors):
@@ -143,15 +148,27 @@ class FmuParticipant:
         return [self._variables[name].valueReference for name in names]
 
 
-def _callbacks(messages: list[str]) -> Any:
-    """FMI callbacks whose logger collects the messages of warnings and errors."""
+# Messages by the number that an instance has as its environment; fmpy's proxy sends those of all instances to one logger.
+_RECEIVERS: dict[int, list[str]] = {}
+_NUMBERS = count(1)
 
-    def log(_environment: Any, _instance: bytes, status: int, _category: bytes, message: bytes) -> None:
-        if status != fmi2.fmi2OK:
-            messages.append((message or b"").decode("utf-8", "replace").strip())
 
+def _log(environment: int | None, instance: bytes, status: int, category: bytes, message: bytes) -> None:
+    """Keep a warning or an error of one of our instances; what others log is printed, as fmpy does."""
+    receiver = _RECEIVERS.get(environment or 0)
+    if receiver is None:
+        fmi2.printLogMessage(environment, instance, status, category, message)
+    elif status != fmi2.fmi2OK:
+        receiver.append((message or b"").decode("utf-8", "replace").strip())
+
+
+_LOGGER = fmi2.fmi2CallbackLoggerTYPE(_log)  # never freed: the proxy keeps it for FMUs that are instantiated later
+
+
+def _callbacks(number: int) -> Any:
+    """FMI callbacks of the instance with this number."""
     callbacks = fmi2.fmi2CallbackFunctions()
-    callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(log)
+    callbacks.logger, callbacks.componentEnvironment = _LOGGER, number
     callbacks.allocateMemory = fmi2.fmi2CallbackAllocateMemoryTYPE(fmi2.calloc)
     callbacks.freeMemory = fmi2.fmi2CallbackFreeMemoryTYPE(fmi2.free)
     with suppress(Exception):  # where fmpy has no such proxy, a message's arguments stay unformatted
