@@ -61,7 +61,7 @@ def _welcome(
 
 PANELS = {  # of the help text, with commands in the order in which they are typically used
     "Simulate": ("simulate", "modes"),
-    "Compare with measurements": ("new", "check", "compare", "diagnose", "add", "improve"),
+    "Compare with measurements": ("app", "new", "check", "compare", "diagnose", "add", "improve"),
     "Other tools": ("fmu",),
     "Design and tuning": ("tune", "design"),
     "Verification": ("verify", "study"),

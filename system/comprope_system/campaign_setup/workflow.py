@@ -8,10 +8,10 @@ from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 
 from ..identification.workflow import check
-from ..measurements.campaign_file import MotionColumn
 from ..measurements.files.reader import require_regular_file
 from .campaign_text import campaign_text
 from .column_matching import roles
+from .corrections import Corrections, corrected, require_runs
 from .model_choice import choose_model, copied
 from .questions import Ask, asked_changes, asked_role, without_guess
 from .result import NewCampaign
@@ -30,6 +30,7 @@ def new(
     *,
     model: str | Path | RopeModel | None = None,
     ask: Ask | None = None,
+    corrections: Corrections | None = None,
 ) -> NewCampaign:
     """Describe raw logger files: write campaign.toml, model and files into a folder; nothing is replaced.
 
@@ -38,9 +39,10 @@ def new(
     `model` is a model file, a data sheet (a model file with the rope's construction in place of its mass and stiffness, which are
     estimated), a preset's name or a `RopeModel`, by default the only one in the folder or the preset tower50.
     `ask(question, default)` returns the answer to what the files do not say; an answer that is not accepted is asked for again.
-    Without `ask` guessed columns are left out and the sheave is the model's. Raises
-    `InputError` if campaign.toml exists, or a file holds no motion of a car.
+    Without `ask` guessed columns are left out and the sheave is the model's. `corrections` state what columns and runs are,
+    whatever the files look like. Raises `InputError` if campaign.toml exists, or a file holds no motion of a car.
     """
+    known = corrections or Corrections()
     folder = Path(campaign)
     path = folder / "campaign.toml"
     stated = [_together(one) for one in files]
@@ -49,24 +51,26 @@ def new(
     chosen = choose_model(folder, model, ask)
     loaded, remarks = chosen.model, list(chosen.remarks)
     groups = grouped(folder, [[copied(one, folder) for one in together] for together in stated])
-    surveyed = survey(folder, groups, loaded, MotionColumn())
+    surveyed = survey(folder, groups, loaded, known.car)
     found = roles(surveyed, loaded)
     found = {name: asked_role(name, role, loaded, ask) if ask else without_guess(role) for name, role in found.items()}
+    found = corrected(found, known.columns, loaded)
+    require_runs(known, [run.file for run in surveyed], loaded)
     used = {column: role for column, role in found.items() if role.quantity}
     channels = [(column, role, noise(surveyed, column, role)) for column, role in used.items()]
     if not channels:
         columns = ", ".join(found)
         raise InputError(f"{folder}: no column is a channel that is known; describe them in campaign.toml: {columns}")
     held_out = _held_out(surveyed)
-    by_file = {run.file: "validate" if run.file == held_out else "fit" for run in surveyed}
-    changes = {run.file: asked_changes(run.file, loaded, ask) if ask else {} for run in surveyed}
+    by_file = {run.file: "validate" if run.file == held_out else "fit" for run in surveyed} | dict(known.roles)
+    changes = {run.file: asked_changes(run.file, loaded, ask) if ask else {} for run in surveyed} | dict(known.changes)
     runs = [run_entry(run, by_file[run.file], found, changes[run.file]) for run in surveyed]
     tables = _tables(surveyed) | {"plant": {key: {"relative": one} for key, one in chosen.tolerances.items()}}
     with atomic_write(path) as temporary:
         temporary.write_text(campaign_text(folder.resolve().name, chosen.file, tables, channels, runs), "utf-8")
     remarks += [f"{run.file}: {run.rest:.2g} s at rest before the trip; references at rest need {SHORT_REST:g} s"
                 for run in surveyed if run.trip is not None and run.rest < SHORT_REST]  # fmt: skip
-    if not ask:
+    if not ask and not known.changes:
         remarks.append(f"the sheave of the model, {loaded.sheave.mass:g} kg, is taken in every run; {SHEAVE_OF_RUN}")
     parts = {run.file: run.group.others for run in surveyed}
     return NewCampaign(path, surveyed[0].car.column, found, by_file, parts, tuple(remarks), check(path))

@@ -37,7 +37,7 @@ def workers(jobs: int | None = None, executor: Executor | str | None = None, *, 
         # A fresh interpreter for each worker: forking one that has threads (a progress bar's) is not safe.
         spawn = multiprocessing.get_context("spawn")
         reader, writer = spawn.Pipe(duplex=False)
-        pool = ProcessPoolExecutor(count, mp_context=spawn, initializer=_end_with_parent, initargs=(reader,))
+        pool = ProcessPoolExecutor(count, mp_context=spawn, initializer=end_with_parent, initargs=(reader,))
         try:
             yield pool
         except BaseException:  # such as Ctrl-C: nobody waits for what is still being computed
@@ -49,7 +49,7 @@ def workers(jobs: int | None = None, executor: Executor | str | None = None, *, 
             reader.close()
 
 
-def _end_with_parent(reader: Connection) -> None:
+def end_with_parent(reader: Connection) -> None:
     """End this process as soon as the other end of the pipe is closed, which also happens when its owner is killed.
 
     Ctrl-C, which a terminal sends to all processes, is left to that owner.

@@ -185,6 +185,22 @@
       this.figure.dispatchEvent(new CustomEvent("comprope:released", { bubbles: true, detail: { effect: this.effect.name, values: [...this.at] } }));
     }
 
+    // What a simulation with these values shows, in place of the interpolation, unless the hand has moved on.
+    replayed({ effect, values }, { errors, curves }) {
+      if (effect !== this.effect.name || values.some((one, k) => one !== this.at[k])) return;
+      for (const [role, { value, fill }] of Object.entries(this.bars)) {
+        value.textContent = percent(errors[role]);
+        fill.style.width = `${(100 * (errors[role] ?? 0)) / this.most[role]}%`;
+      }
+      this.curves.groups.forEach((group, r) => group.data.panels.forEach((panel, p) => this.curves.replace(r, p, curves[group.data.name][panel.name])));
+      this._mark(true);
+    }
+
+    _mark(simulated) {
+      this.badge.textContent = simulated ? "replayed" : "preview";
+      this.badge.title = simulated ? "the simulation was run with these values" : "interpolated between simulations";
+    }
+
     draw() {
       const by = weights(this.effect.sliders, this.at), { sliders } = this.effect;
       this.inputs.forEach(({ input, told, off }, k) => {
@@ -194,8 +210,7 @@
         off.setAttribute("aria-pressed", this.at[k] === sliders[k].nodes[0]);
       });
       const atNode = sliders.every(({ nodes, centre }, k) => nodes.includes(this.at[k]) && (sliders.length === 1 || this.at[k] === nodes[centre]));
-      this.badge.textContent = atNode ? "replayed" : "preview";
-      this.badge.title = atNode ? "the simulation was run with these values" : "interpolated between simulations";
+      this._mark(atNode);
       for (const [role, { value, fill, given, noise }] of Object.entries(this.bars)) {
         const error = nrmse(this.effect.runs, role, by), place = (share) => `${(100 * (share ?? 0)) / this.most[role]}%`;
         value.textContent = percent(error);

@@ -23,18 +23,18 @@ PLANT_GIVEN = "Plant parameters are those of the model file."
 
 
 def preview_section(previews: Sequence[EffectPreview], given: Comparison, first: str, *, fitted: bool) -> list[Section]:
-    """The section, or none without previews. `given` is the model as it is; of the runs, `first` is shown at once."""
-    if not previews:
-        return []
+    """The section, or none without previews."""
+    return [Section("try", TITLE, [preview_block(previews, given, first, fitted=fitted)])] if previews else []
+
+
+def preview_block(previews: Sequence[EffectPreview], given: Comparison, first: str, *, fitted: bool) -> Preview:
+    """What the section shows. `given` is the model as it is; of the runs, `first` is shown at once."""
     errors = {
         "fit": (given.fit_nrmse, given.noise_nrmse("fit")),
         "validate": (given.validate_nrmse, given.noise_nrmse("validate")),
     }
-    shown = Preview(
-        "preview", [preview_effect_block(one, given, first) for one in previews], errors,
-        CAPTION.format(plant=PLANT_FITTED if fitted else PLANT_GIVEN),
-    )  # fmt: skip
-    return [Section("try", TITLE, [shown])]
+    effects = [preview_effect_block(one, given, first) for one in previews]
+    return Preview("preview", effects, errors, CAPTION.format(plant=PLANT_FITTED if fitted else PLANT_GIVEN))
 
 
 def preview_effect_block(one: EffectPreview, given: Comparison, first: str) -> PreviewEffect:

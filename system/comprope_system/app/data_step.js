@@ -1,0 +1,151 @@
+// The first step: files, what their columns are taken for, corrections, and the campaign that is saved.
+import { ask, find, make, showPage, tell } from "./elements.js";
+
+const LEFT_OUT = "left out", DELAY = 250; // ms after a correction until the files are read again
+const stated = { columns: {}, roles: {}, changes: {}, car: "", model: "" };
+let state = null, found = null, waiting = null, reads = 0, known = "";
+
+export function showData(now) {
+  state = now;
+  find("#describing").hidden = now.exists;
+  find("#described").hidden = !now.exists;
+  find("#described-text").textContent = `${now.folder} is described in its campaign.toml, which can be edited; results follow its content.`;
+  if (now.exists) return;
+  const list = find("#uploads"), names = now.uploads.map((one) => one.name).join("|");
+  if (!find("#model").options.length) models(now.presets);
+  if (names === known) return;
+  known = names;
+  list.replaceChildren();
+  for (const { name, size } of now.uploads) {
+    const item = make(list, "li", {}, `${name} (${Math.ceil(size / 1000)} kB)`);
+    make(item, "button", { type: "button", "aria-label": `remove ${name}` }, "×").addEventListener("click", () => ask("DELETE", `/files/${encodeURIComponent(name)}`));
+  }
+  find("#model-told").textContent = now.uploads.some((one) => one.name.endsWith(".toml")) ? "the model file among the files is taken" : "";
+  if (now.uploads.length) describe(); else find("#guess").hidden = true;
+}
+
+function models(presets) {
+  for (const name of presets) make(find("#model"), "option", {}, name);
+  find("#model").addEventListener("change", (event) => { stated.model = event.target.value; describe(); });
+}
+
+// -- files ------------------------------------------------------------------------------------------
+async function upload(files) {
+  for (const file of files) {
+    find("#busy").textContent = `reading ${file.name}`;
+    if (!(await ask("PUT", `/files/${encodeURIComponent(file.name)}`, file))) return;
+  }
+}
+
+const drop = find("#drop");
+for (const name of ["dragenter", "dragover"]) drop.addEventListener(name, (event) => { event.preventDefault(); drop.classList.add("over"); });
+for (const name of ["dragleave", "drop"]) drop.addEventListener(name, () => drop.classList.remove("over"));
+drop.addEventListener("drop", (event) => { event.preventDefault(); upload(event.dataTransfer.files); });
+find("#files").addEventListener("change", async (event) => { await upload(event.target.files); event.target.value = ""; });
+
+// -- description ------------------------------------------------------------------------------------
+function later() { clearTimeout(waiting); waiting = setTimeout(describe, DELAY); }
+
+async function describe() {
+  clearTimeout(waiting);
+  const mine = ++reads;
+  find("#busy").textContent = "reading the files";
+  find("#save").disabled = true;
+  const answer = await ask("POST", "/describe", { ...stated, model: stated.model || find("#model").value });
+  if (mine !== reads) return;
+  find("#busy").textContent = "";
+  if (!answer) return;
+  found = answer;
+  find("#guess").hidden = false;
+  render();
+  find("#save").disabled = found.problems.length > 0;
+  if (found.preview) showPage(find("#preview"), "/preview", `${mine}`); else find("#preview").hidden = true;
+}
+
+// Redraws the tables and keeps the focus where it was.
+function render() {
+  const focus = document.activeElement?.id;
+  carRow();
+  columnTable();
+  runTable();
+  const problems = find("#problems");
+  problems.replaceChildren();
+  for (const one of found.problems) make(problems, "li", {}, one);
+  for (const one of found.remarks) make(problems, "li", { class: "soft" }, one);
+  if (focus) document.getElementById(focus)?.focus();
+}
+
+function select(cell, id, label, options, chosen, act) {
+  const box = make(cell, "select", { id, "aria-label": label });
+  for (const [value, text] of options) make(box, "option", { value }, text).selected = value === chosen;
+  box.addEventListener("change", () => { act(box.value); later(); });
+}
+
+function carRow() {
+  const row = find("#car-row"), names = [found.car, ...found.columns.map((one) => one.column)];
+  row.replaceChildren();
+  const label = make(row, "label", {}, "Motion of the car ");
+  select(label, "car", "column of the car", names.map((one) => [one, one]), found.car, (value) => { stated.car = value; });
+}
+
+function head(table, names) {
+  table.replaceChildren();
+  const row = make(make(table, "thead"), "tr");
+  for (const one of names) make(row, "th", {}, one);
+  return make(table, "tbody");
+}
+
+function columnTable() {
+  const body = head(find("#columns"), ["column", "taken for", "sensor", "unit", "sign", "how surely"]);
+  found.columns.forEach((one, k) => {
+    const row = make(body, "tr"), units = state.units[one.quantity] ?? [];
+    const change = (values) => {
+      const now = { quantity: one.quantity, unit: one.unit, sensor: one.sensor, sign: one.sign, ...values }, units = state.units[now.quantity] ?? [];
+      if (!units.includes(now.unit)) now.unit = units[0] ?? "";
+      if (now.quantity !== "lateral_displacement") now.sensor = null; else now.sensor ??= free(one);
+      stated.columns[one.column] = now;
+    };
+    make(row, "td", {}, one.column);
+    const quantities = [["", one.same_as ? `as ${one.same_as}` : LEFT_OUT], ...Object.keys(state.units).map((name) => [name, name.replaceAll("_", " ")])];
+    select(make(row, "td"), `quantity-${k}`, `quantity of ${one.column}`, quantities, one.quantity ?? "", (value) => change({ quantity: value || null }));
+    const sensor = make(row, "td"), unit = make(row, "td"), sign = make(row, "td");
+    if (one.quantity === "lateral_displacement") select(sensor, `sensor-${k}`, `sensor of ${one.column}`, found.sensors.map((name) => [name, name]), one.sensor, (value) => change({ sensor: value }));
+    if (units.length) select(unit, `unit-${k}`, `unit of ${one.column}`, units.map((name) => [name, name]), one.unit, (value) => change({ unit: value }));
+    if (one.quantity) select(sign, `sign-${k}`, `sign of ${one.column}`, [["1", "+"], ["-1", "−"]], `${one.sign}`, (value) => change({ sign: +value }));
+    make(row, "td", { class: "why" }, `${one.certainty}: ${one.why}`);
+  });
+}
+
+// A sensor that no other column has.
+function free(column) {
+  const taken = found.columns.filter((one) => one !== column).map((one) => one.sensor);
+  return found.sensors.find((name) => !taken.includes(name)) ?? found.sensors[0] ?? null;
+}
+
+function runTable() {
+  const body = head(find("#runs"), ["file", "role", "mass of the sheave [kg]", "its inertia [kg m²]"]);
+  found.runs.forEach(({ file, role }, k) => {
+    const row = make(body, "tr");
+    make(row, "td", {}, file);
+    select(make(row, "td"), `role-${k}`, `role of ${file}`, [["fit", "fit"], ["validate", "validate"]], role, (value) => { stated.roles[file] = value; });
+    for (const key of ["mass", "inertia"]) {
+      const value = stated.changes[file]?.[`sheave.${key}`] ?? found.sheave?.[key] ?? "";
+      const input = make(make(row, "td"), "input", { class: "number", id: `${key}-${k}`, "aria-label": `${key} of the sheave in ${file}`, inputmode: "decimal" });
+      input.value = value === "" ? "" : `${+(+value).toPrecision(6)}`;
+      input.addEventListener("change", () => { sheave(file, key, +input.value.replace(",", ".")); later(); });
+    }
+  });
+}
+
+// Mass and inertia of a run's sheave; of another mass the inertia is taken in proportion.
+function sheave(file, key, value) {
+  const base = found.sheave ?? {}, own = stated.changes[file] ?? { "sheave.mass": base.mass, "sheave.inertia": base.inertia };
+  own[`sheave.${key}`] = value;
+  if (key === "mass") own["sheave.inertia"] = +((base.inertia * value) / base.mass).toPrecision(6);
+  stated.changes[file] = own;
+}
+
+find("#save").addEventListener("click", async () => {
+  find("#save").disabled = true;
+  if (await ask("POST", "/campaign", {})) { tell(""); location.hash = "check"; } else find("#save").disabled = false;
+});

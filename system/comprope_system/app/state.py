@@ -1,0 +1,105 @@
+"""What the page shows: the campaign, uploaded files, results, the running job, and the commands that do the same."""
+
+import json
+import os
+import shlex
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from comprope.errors import InputError
+from comprope.rope.effects import INSTRUMENT, REGISTRY
+from comprope.user_cache import write_whole
+
+from ..measurements.campaign_file import read_campaign_file
+from ..measurements.units import UNITS
+from .job import RUNNING, Job
+from .workspace import Workspace
+
+PRESETS = ("tower50", "tower50_light", "building200")
+
+
+class State:
+    """The campaign of an app and its one job; `version` changes with everything that the page shows."""
+
+    def __init__(self, campaign: Path) -> None:
+        self.workspace = Workspace(campaign)
+        self.job: Job | None = None
+        self.version = 0
+        self._mark = self.workspace.root / "job.json"
+
+    def changed(self) -> None:
+        """There is something new to show."""
+        self.version += 1
+        if self.job and self.job.state != RUNNING:
+            self._mark.unlink(missing_ok=True)
+
+    def start(self, name: str, arguments: dict[str, Any]) -> None:
+        """Start a job; raises `InputError` while another one is running."""
+        if self.job and self.job.state == RUNNING:
+            raise InputError(f"{self.job.name} is running; wait for it or cancel it")
+        workspace = self.workspace
+        described = read_campaign_file(workspace.campaign / "campaign.toml")
+        fit = sum(run.role == "fit" for run in described.runs)
+        write_whole(self._mark, json.dumps({"name": name, "arguments": arguments, "server": os.getpid()}))
+        self.job = Job(name, arguments, workspace.campaign, workspace.results(), fit, self.changed)
+        self.changed()
+
+    def cancel(self) -> None:
+        """Cancel the running job, and forget one that was interrupted."""
+        if self.job:
+            self.job.cancel()
+        self._mark.unlink(missing_ok=True)
+        self.changed()
+
+    def close(self) -> None:
+        """End the job's process with the server; a later one offers to resume it."""
+        if self.job and self.job.state == RUNNING:
+            self.job.stop()
+
+    def interrupted(self) -> dict[str, Any] | None:
+        """The job that was running when an earlier server ended."""
+        if self.job and self.job.state == RUNNING:
+            return None
+        with suppress(OSError, ValueError):
+            found: dict[str, Any] = json.loads(self._mark.read_text("utf-8"))
+            return found
+        return None
+
+    def shown(self) -> dict[str, Any]:
+        """Everything, as JSON."""
+        workspace = self.workspace
+        return {
+            "version": self.version, "folder": str(workspace.campaign), "exists": workspace.exists,
+            "uploads": [{"name": one.name, "size": one.stat().st_size} for one in workspace.uploaded()],
+            "results": workspace.shown_results(), "job": self.job.status() if self.job else None,
+            "interrupted": self.interrupted(), "effects": effects(workspace), "units": {q: list(u) for q, u in UNITS.items()},
+            "presets": list(PRESETS), "commands": self.commands(),
+        }  # fmt: skip
+
+    def commands(self) -> list[str]:
+        """The commands that do what has been done here."""
+        workspace = self.workspace
+        folder = shlex.quote(str(workspace.campaign))
+        names = workspace.records()
+        uploads = [shlex.quote(one.name) for one in workspace.uploaded()]
+        found = [f"comprope new {folder} {' '.join(uploads)}"] if uploads else []
+        found += [f"comprope check {folder}"] if workspace.exists else []
+        found += [f"comprope compare {folder} --report compare.html"] if "compare" in names else []
+        found += [f"comprope diagnose {folder} --report diagnose.html"] if "diagnose" in names else []
+        updated = "--out model.toml --report model.html --fmu fmus"
+        found += [
+            f"comprope {shlex.join(one.split())} {updated}".replace("add ", f"add {folder} ", 1)
+            for one in names
+            if one[:4] == "add "
+        ]
+        return found + ([f"comprope improve {folder} {updated}"] if "improve" in names else [])
+
+
+def effects(workspace: Workspace) -> list[str]:
+    """Names of all effects that can be added, faults of instruments with their channel."""
+    columns: list[str] = []
+    with suppress(InputError):
+        if workspace.exists:
+            columns = [one.column for one in read_campaign_file(workspace.campaign / "campaign.toml").channels]
+    return [*REGISTRY, *(f"{fault}.{column}" for fault in INSTRUMENT for column in columns)]
