@@ -18,7 +18,7 @@ from .remembering_executor import RememberingExecutor
 
 RUNNING, DONE, FAILED, CANCELLED = "running", "done", "failed", "cancelled"
 # Replays that a computation usually takes, for each fit run: from campaigns of docs/app.md. For the estimate of the time left.
-USUAL_TASKS = {"diagnose": 75, "add": 30, "improve": 150}
+USUAL_TASKS = {"diagnose": 75, "add": 60, "improve": 150}
 
 
 class Job:

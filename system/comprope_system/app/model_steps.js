@@ -2,6 +2,7 @@
 import { ask, duration, find, make, percent, showPage } from "./elements.js";
 
 const SHORT = { check: "Check", compare: "Compare" };
+const SETTLED = 400; // ms without a further movement until what a slider was moved to is simulated
 let state = null, busy = null, chosen = null, touched = false;
 
 export function showModels(now) {
@@ -65,14 +66,24 @@ function runningJob(box, job) {
 
 // -- true replays of what a slider was moved to ---------------------------------------------------------
 function follow(inner) {
-  let last = 0;
-  inner.document.addEventListener("comprope:released", async (event) => {
-    const mine = ++last, told = find("#replayed");
-    told.textContent = "simulating with these values …";
-    const found = await ask("POST", "/replay", event.detail);
-    if (mine !== last) return;
-    told.textContent = found ? "The curves below are simulated with the values of the sliders." : "";
-    if (found) inner.compropePreviews.get("preview").replayed(event.detail, found);
+  const told = find("#replayed");
+  let latest = null, waiting = null, simulating = false;
+  const simulate = async () => {
+    if (simulating) return; // one at a time; the latest values are next
+    simulating = true;
+    for (let mine = null; mine !== latest;) {
+      mine = latest;
+      told.textContent = "Simulating with the values of the sliders …";
+      const found = await ask("POST", "/replay", mine);
+      if (mine === latest && found) inner.compropePreviews.get("preview").replayed(mine, found);
+      told.textContent = found ? "The curves below are simulated with the values of the sliders." : "";
+    }
+    simulating = false;
+  };
+  inner.document.addEventListener("comprope:released", (event) => {
+    latest = event.detail;
+    clearTimeout(waiting);
+    waiting = setTimeout(simulate, SETTLED);
   });
 }
 
@@ -116,6 +127,7 @@ function takeAway({ results, commands }) {
   box.replaceChildren();
   if (!results.length) make(box, "p", {}, "Nothing yet.");
   for (const { name, headline, model, fmus } of results) {
+    make(box, "h3", {}, name.replaceAll("_", " "));
     make(box, "p", {}, headline);
     const row = make(box, "div", { class: "downloads" });
     const files = [...(model ? ["model.toml"] : []), "report.html", "output.json", ...fmus];

@@ -104,8 +104,8 @@ class Routes:
     async def save(self, request: Request) -> Response:
         """Write the campaign that was described."""
         workspace = self.state.workspace
-        found = await self.desk.run(descriptions.save_campaign, workspace.staged, workspace.campaign.name, workspace.campaign)
-        return self._news_and(found)
+        given = (workspace.staged, workspace.campaign.name, workspace.campaign)
+        return self._news_and(await asyncio.to_thread(descriptions.save_campaign, *given))
 
     async def run(self, request: Request) -> Response:
         """A short computation."""
