@@ -220,3 +220,54 @@ def test_a_channel_named_value_is_named_by_its_file(tmp_path, files):
     assert set(written.runs[0].columns.values()) == {"Value [mm]"}
     run = result.check.runs[0].run
     assert np.allclose(run.values[written.channels[0].column], 1e-3 * table["Laser Kabine [mm]"])
+
+
+def test_a_counterweight_alone_gives_the_motion_of_the_car(tmp_path, files):
+    for file, sep, decimal, encoding in ((files[0], ",", ".", "utf-8"), (files[1], ";", ",", "latin-1")):
+        table = pd.read_csv(file, sep=sep, decimal=decimal, encoding=encoding)
+        position = 1e3 * MODEL.shaft.height - table["Kabinenposition [mm]"]
+        table.drop(columns="Kabinenposition [mm]").assign(**{"Gegengewicht_Position [mm]": position}).to_csv(file, index=False)
+    result = comprope_system.new(tmp_path / "campaign", files, model=MODEL)
+    assert result.check.problems == ()
+    written = read_campaign_file(tmp_path / "campaign" / "campaign.toml")
+    assert written.car.column is None and written.counterweight.column == "Gegengewicht_Position [mm]"
+    assert next(one.sign for one in written.channels if one.quantity == "sheave_angular_velocity") == -1
+    assert result.check.runs[0].run.trip.position(END) == pytest.approx(11.0, abs=0.01)
+
+
+def test_a_channel_that_one_run_does_not_have_is_left_out_of_it(tmp_path, files):
+    pd.read_csv(files[0]).drop(columns="Scheibe Weg (mm)").to_csv(files[0], index=False)
+    result = comprope_system.new(tmp_path / "campaign", files, model=MODEL)
+    assert result.check.problems == () and "up.csv: Scheibe Weg (mm): not measured in this run" in result.check.remarks
+    written = read_campaign_file(tmp_path / "campaign" / "campaign.toml")
+    assert written.runs[0].columns == {"Scheibe Weg (mm)": ""} and written.runs[1].columns == {}
+    assert np.isnan(result.check.runs[0].run.values["Scheibe Weg (mm)"]).all()
+
+
+def test_columns_that_differ_in_separators_only_are_two_where_one_file_has_both(tmp_path, files):
+    table = pd.read_csv(files[0])
+    table.assign(laser_kabine=table["Laser GG unten [mm]"]).to_csv(files[0], index=False)
+    result = comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL)
+    assert {"laser_kabine", "Laser Kabine [mm]"} <= set(result.columns)
+
+
+def test_where_a_car_starts_is_asked_if_no_column_gives_a_height(tmp_path, files):
+    table = pd.read_csv(files[0])
+    speed = 1e-3 * np.gradient(table["Kabinenposition [mm]"].rolling(9, min_periods=1).mean(), SAMPLING)
+    table.drop(columns="Kabinenposition [mm]").assign(car_speed=speed).to_csv(files[0], index=False)
+    answers = {"up.csv: height of the car": ["70", "2.0"], "up.csv: mass": ["120"]}
+
+    def ask(question: str, default: str) -> str:
+        key = next((key for key in answers if question.splitlines()[-1].startswith(key)), None)
+        return answers[key].pop(0) if key else default
+
+    result = comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL, ask=ask)
+    assert result.check.problems == () and not any(answers.values())
+    assert result.check.runs[0].run.trip.position(0.0) == pytest.approx(2.0, abs=0.05)
+
+
+def test_runs_that_all_begin_at_the_bottom_landing_are_remarked_on(tmp_path):
+    for name, way in (("up.csv", 9.0), ("up_short.csv", 5.0)):
+        raw(0.0, way, 1).to_csv(tmp_path / name, index=False)
+    result = comprope_system.new(tmp_path / "campaign", [tmp_path / "up.csv", tmp_path / "up_short.csv"], model=MODEL)
+    assert sum("begins at the bottom landing, as every run does" in one for one in result.check.remarks) == 2

@@ -27,7 +27,8 @@ def campaign_text(
         lines += [*([f"noise = {noise:g}"] if noise else []), ""]
     for run in runs:
         lines += ["[[runs]]", f"file = {_value(run.file)}", f"role = {_value(run.role)}"]
-        tables_of_run = {"files": run.files, "columns": run.columns, "readings": run.readings, "set": run.set}
+        lines += [f"car_start = {run.answers.car_start:g}"] if run.answers.car_start is not None else []
+        tables_of_run = {"files": run.files, "columns": run.columns, "readings": run.readings, "set": run.answers.changes}
         lines += [*(f"{key} = {_value(table)}" for key, table in tables_of_run.items() if table), ""]
     return "\n".join(lines).rstrip() + "\n"
 

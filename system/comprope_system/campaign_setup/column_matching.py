@@ -14,27 +14,27 @@ from .survey import SurveyedColumn, SurveyedRun
 
 def roles(runs: Sequence[SurveyedRun], model: RopeModel) -> dict[str, Role]:
     """The role of each column by its name in the first file that has it; columns that differ in separators only are the same."""
-    names: dict[str, str] = {}
+    names: list[str] = []
     for run in runs:
-        for name in run.columns:
-            names.setdefault(plain_name(name), name)
-    found = {name: role_of(name, _evidence(runs, plain, model), model.sensors) for plain, name in names.items()}
+        names += [name for name in run.columns if all(own_name(run, one) != name for one in names)]
+    found = {name: role_of(name, _evidence(runs, name, model), model.sensors) for name in names}
     having = {name: {run.file for run in runs if own_name(run, name)} for name in found}
     return _one_each(found, having)
 
 
 def own_name(run: SurveyedRun, name: str) -> str | None:
-    """The name of a column in a run, which may differ in unit and separators; None where the run has no such column."""
-    return next((own for own in run.columns if plain_name(own) == plain_name(name)), None)
+    """The name of a column in a run, which may differ in unit and separators; None where the run has none, or several."""
+    alike = [own for own in run.columns if plain_name(own) == plain_name(name)]
+    return name if name in run.columns else alike[0] if len(alike) == 1 else None
 
 
-def _evidence(runs: Sequence[SurveyedRun], plain: str, model: RopeModel) -> list[Evidence]:
+def _evidence(runs: Sequence[SurveyedRun], name: str, model: RopeModel) -> list[Evidence]:
     found = []
     for run in runs:
-        for name, column in run.columns.items():
-            if plain_name(name) == plain:
-                rolling = run.speed(column.samples.time) * column.related / model.sheave.radius
-                found.append(Evidence(column.samples.values, rolling, stated_unit(column)))
+        if (own := own_name(run, name)) is not None:
+            column = run.columns[own]
+            rolling = run.speed(column.samples.time) * column.related / model.sheave.radius
+            found.append(Evidence(column.samples.values, rolling, stated_unit(column)))
     return found
 
 

@@ -15,6 +15,7 @@ from ..measurements.units import UNITS
 Floats = NDArray[np.float64]
 
 SURE, LIKELY, GUESS = "sure", "likely", "guess"
+ANSWERED, STATED = "as answered", "as stated"  # why a column has a role that somebody told
 SHEAVE = re.compile(r"sheave|pulley|axle|achse|scheibe|umlenk|tension(er|ing)_w|pit_w")
 TURNING = re.compile(r"speed|omega|veloc|rpm|turn|dreh|rot|gyro|_w$|^w$|drehzahl")
 FORCE = re.compile(r"force|kraft|load|last|tension|zug|loadcell|_f$")

@@ -10,10 +10,9 @@ from comprope.rope.model_file import with_changes
 from ..measurements.campaign_file import MotionColumn
 from ..measurements.files.raw_table import printable
 from ..measurements.units import UNITS
-from .column_roles import SURE, Role
+from .column_roles import STATED, SURE, Role
 
 ROLES = ("fit", "validate")
-STATED = "as stated"
 
 
 @dataclass(frozen=True)

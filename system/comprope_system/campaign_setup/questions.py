@@ -12,7 +12,7 @@ from comprope.rope.parameters import Sheave
 from ..measurements.campaign_file import Quantity
 from ..measurements.files.raw_table import printable
 from ..measurements.units import UNITS
-from .column_roles import GUESS, SURE, Role
+from .column_roles import ANSWERED, GUESS, SURE, Role
 
 Ask = Callable[[str, str], str]
 Answer = TypeVar("Answer")
@@ -43,7 +43,7 @@ def without_guess(role: Role) -> Role:
 def _role(column: str, answer: str, role: Role, model: RopeModel) -> Role:
     """The role that an answer states; raises `InputError` for one that cannot be."""
     if answer == LEFT_OUT:
-        return Role(None, certainty=SURE, why="as answered")
+        return Role(None, certainty=SURE, why=ANSWERED)
     words = answer.split()
     sensor = words.pop(1) if len(words) == 3 else None
     given, sensors = f"{printable(column)}: {printable(answer)}", [one.name for one in model.sensors]
@@ -51,7 +51,7 @@ def _role(column: str, answer: str, role: Role, model: RopeModel) -> Role:
         raise InputError(f"{given}: a quantity with one of its units is accepted, such as sheave_displacement mm")
     if words[0] == "lateral_displacement" and sensor not in sensors:
         raise InputError(f"{given}: a sensor of the model is accepted: {', '.join(sensors)}")
-    return replace(role, quantity=words[0], unit=words[1], sensor=sensor, certainty=SURE, why="as answered")
+    return replace(role, quantity=words[0], unit=words[1], sensor=sensor, certainty=SURE, why=ANSWERED)
 
 
 def asked_changes(file: str, model: RopeModel, ask: Ask) -> Mapping[str, object]:
@@ -63,6 +63,23 @@ def asked_changes(file: str, model: RopeModel, ask: Ask) -> Mapping[str, object]
     in_proportion = model.sheave.inertia * mass / model.sheave.mass
     inertia = asked_number(shown, Sheave, "inertia", f"moment of inertia of this sheave, {share}", in_proportion, ask)
     return {"sheave.mass": mass, "sheave.inertia": inertia}
+
+
+def asked_start(file: str, model: RopeModel, ask: Ask) -> float | None:
+    """The height of the car at the start of a run [m], whose column gives none; None if it is not known."""
+    shown = printable(file)
+
+    def read(answer: str) -> float | None:
+        try:
+            value = None if answer == LEFT_OUT else float(answer)
+        except ValueError:
+            value = float("nan")
+        if value is not None and not 0.0 <= value <= model.shaft.height:
+            accepted = f"a height from 0 to {model.shaft.height:g} m is accepted, or {LEFT_OUT} if it is not known"
+            raise InputError(f"{shown}: car_start = {printable(answer)}: {accepted}")
+        return value
+
+    return answered(f"{shown}: height of the car at the start of the record, above the bottom landing [m]", LEFT_OUT, read, ask)
 
 
 def share_of(ropes: float) -> str:

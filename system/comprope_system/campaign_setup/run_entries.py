@@ -1,38 +1,52 @@
 """What campaign.toml states about the channels of each run, and the noise of a channel at rest."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..measurements.columns.column_names import plain_name
 from ..measurements.units import UNITS
 from .column_matching import own_name, stated_unit
-from .column_roles import Role
+from .column_roles import ANSWERED, STATED, Role
 from .survey import SurveyedRun
 
+ABSENT = ""  # the name of a channel in a run that does not have it
 FEWEST = 20  # samples at rest for an estimate of the noise
 MAD_FACTOR = 1.4826  # standard deviation over median absolute deviation of a normal distribution
 
 
 @dataclass(frozen=True)
+class Answers:
+    """What was answered about a run: height of the car at its start [m], and changes of the model by key."""
+
+    car_start: float | None = None
+    changes: Mapping[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class RunEntry:
-    """The entry of a run: its file and role, names of channels in its files, their files and units, and changes of the model."""
+    """The entry of a run: its file and role, names of channels in its files, their files and units, and what was answered."""
 
     file: str
     role: str
     columns: Mapping[str, str]
     files: Mapping[str, str]
     readings: Mapping[str, Mapping[str, str]]
-    set: Mapping[str, object]
+    answers: Answers
 
 
-def run_entry(run: SurveyedRun, role_of_run: str, found: Mapping[str, Role], changes: Mapping[str, object]) -> RunEntry:
+def run_entry(run: SurveyedRun, role_of_run: str, found: Mapping[str, Role], answers: Answers) -> RunEntry:
     """The entry of a run for columns with the roles `found`."""
-    columns, files, readings = {}, {}, {}
+    columns = {run.motion.end: run.motion.column} if run.motion.told else {}
+    files, readings = {}, {}
     for name, role in found.items():
         channel, own = role.same_as or name, own_name(run, name)
-        if own is None or not (role.quantity or role.same_as):
+        if not (role.quantity or role.same_as):
+            continue
+        if own is None:
+            if not role.same_as:
+                columns.setdefault(channel, ABSENT)
             continue
         column, usual = run.columns[own], found[channel]
         if plain_name(column.raw.name) != plain_name(channel):
@@ -40,9 +54,10 @@ def run_entry(run: SurveyedRun, role_of_run: str, found: Mapping[str, Role], cha
         if column.file != run.file:
             files[channel] = column.file
         unit = stated_unit(column) or (role.unit if role.same_as else None)
-        if unit is not None and unit != usual.unit and unit in UNITS[str(usual.quantity)]:
+        told = usual.why in (ANSWERED, STATED)  # against such a unit, one of the file is a problem that the check names
+        if unit is not None and not told and unit != usual.unit and unit in UNITS[str(usual.quantity)]:
             readings[channel] = {"unit": unit}
-    return RunEntry(run.file, role_of_run, columns, files, readings, changes)
+    return RunEntry(run.file, role_of_run, columns, files, readings, answers)
 
 
 def noise(runs: Sequence[SurveyedRun], name: str, role: Role) -> float | None:

@@ -11,14 +11,15 @@ from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 
 from ..measurements.campaign_file import MotionColumn, Reading, RunSpec
-from ..measurements.columns.column_names import COUNTERWEIGHT_NAMES, car_column, is_time_name, plain_name
+from ..measurements.columns.column_names import is_time_name, plain_name
 from ..measurements.columns.signal_faults import CHANNEL_RULES
 from ..measurements.files.file_format import FileFormat
-from ..measurements.files.raw_table import RawColumn, printable
+from ..measurements.files.raw_table import RawColumn
 from ..measurements.motion.recover import recover_trip
 from ..measurements.motion.trip import Trip
-from ..measurements.motion_column import MotionSignal, read_motion
+from ..measurements.motion_column import MotionSignal
 from ..measurements.run_files import RunFiles, Samples
+from .motion_survey import SurveyedMotion, survey_motion
 from .run_grouping import RunGroup, words
 
 Floats = NDArray[np.float64]
@@ -29,9 +30,6 @@ SAYS_NOTHING = frozenset(
         "column", "measurement",
     ]
 )  # fmt: skip
-FEWEST = 20  # samples at the beginning and the end of a column that tell how far it moved
-SHORTEST_TRIP = 1.0  # m that a column must reach to be taken for the car's position by its values
-ONE_WAY = 0.9  # share of its reach between the first and the last position of such a column
 
 
 @dataclass(frozen=True)
@@ -52,7 +50,7 @@ class SurveyedRun:
     """
 
     group: RunGroup
-    car: MotionSignal
+    motion: SurveyedMotion
     trip: Trip | None
     columns: dict[str, SurveyedColumn]
     time_unit: str | None
@@ -61,6 +59,11 @@ class SurveyedRun:
     def file(self) -> str:
         """The file with the car's motion, which names the run."""
         return self.group.file
+
+    @property
+    def car(self) -> MotionSignal:
+        """The motion of the car."""
+        return self.motion.car
 
     @property
     def travel(self) -> float:
@@ -82,7 +85,10 @@ class SurveyedRun:
 
 
 def survey(folder: Path, groups: Sequence[RunGroup], model: RopeModel, car: MotionColumn) -> list[SurveyedRun]:
-    """The content of the runs' files in `folder`; raises `InputError` with one line for each run without a motion of a car."""
+    """The content of the runs' files in `folder`, with the column of the `car` if that is stated.
+
+    Raises `InputError` with one line for each run without a motion of a car.
+    """
     found, problems = [], []
     for group in groups:
         try:
@@ -96,11 +102,9 @@ def survey(folder: Path, groups: Sequence[RunGroup], model: RopeModel, car: Moti
 
 def _run(folder: Path, group: RunGroup, model: RopeModel, stated: MotionColumn) -> SurveyedRun:
     files = RunFiles(folder, RunSpec(file=group.file), FileFormat(), folder)
-    table = files.table(group.file)
-    if not car_column(table) and not car_column(table, COUNTERWEIGHT_NAMES):
-        stated = MotionColumn(column=_car_by_values(files, group.file, model.shaft.height))
-    car = _car(files, stated, model.shaft.height)
-    columns = {name: one for name, one in _columns(files, group.file).items() if name != car.column}
+    motion = survey_motion(files, model.shaft.height, stated)
+    car = motion.car
+    columns = {name: one for name, one in _columns(files, group.file).items() if name not in motion.columns}
     for other in group.others:
         columns |= _columns(files, other, taken=columns)
     try:
@@ -108,7 +112,7 @@ def _run(folder: Path, group: RunGroup, model: RopeModel, stated: MotionColumn) 
     except InputError:
         trip = None
     unit = files.assumed_unit if files.assumed_unit != "s" else None
-    return SurveyedRun(group, car, trip, columns, unit)
+    return SurveyedRun(group, motion, trip, columns, unit)
 
 
 def _columns(files: RunFiles, file: str, taken: Collection[str] = ()) -> dict[str, SurveyedColumn]:
@@ -141,42 +145,3 @@ def _names(names: Sequence[str], file: str, main: str, taken: Collection[str]) -
 
 def _says_nothing(name: str) -> bool:
     return plain_name(name).rstrip("0123456789").strip("_") in SAYS_NOTHING
-
-
-def _car(files: RunFiles, stated: MotionColumn, height: float) -> MotionSignal:
-    """The motion of the car, or of the counterweight where that alone is measured.
-
-    Heights outside of the shaft are told by the check of the new campaign, with what to write; here it starts at a landing.
-    """
-    starts = (None, 0.0, height)
-    for start in starts:
-        try:
-            found = read_motion(files, stated, "car", height, start)
-            found = found or read_motion(files, stated, "counterweight", height, start)
-        except InputError:
-            if start == starts[-1]:
-                raise
-            continue
-        if found is not None:
-            return found
-    raise InputError(f"{files.folder / files.spec.file}: no motion of the car")
-
-
-def _car_by_values(files: RunFiles, file: str, height: float) -> str:
-    """The only column that moves one way, as far as a car in a shaft of this height [m]; `InputError` if none."""
-    names = [column.name for column in files.table(file).columns if not is_time_name(column.name)]
-    found = []
-    for name in names:
-        try:
-            car = read_motion(files, MotionColumn(column=name, quantity="position"), "car", height, None)
-        except InputError:
-            continue
-        value = car.value[np.isfinite(car.value)] if car else np.zeros(1)
-        reach = float(np.ptp(value))
-        if reach > SHORTEST_TRIP and abs(float(np.median(value[-FEWEST:]) - np.median(value[:FEWEST]))) > ONE_WAY * reach:
-            found.append(name)
-    if len(found) != 1:
-        columns = printable(", ".join(found or names), 200)
-        path = files.folder / file
-        raise InputError(f"{path}: which column is the position of the car? Rename it car_position; it may be: {columns}")
-    return found[0]

@@ -1,6 +1,6 @@
 """The public function `comprope_system.new`."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from comprope.atomic_files import atomic_write
@@ -13,9 +13,9 @@ from .campaign_text import campaign_text
 from .column_matching import roles
 from .corrections import Corrections, corrected, require_runs
 from .model_choice import choose_model, copied
-from .questions import Ask, asked_changes, asked_role, without_guess
+from .questions import Ask, asked_changes, asked_role, asked_start, without_guess
 from .result import NewCampaign
-from .run_entries import noise, run_entry
+from .run_entries import Answers, noise, run_entry
 from .run_grouping import grouped
 from .survey import SurveyedRun, survey
 
@@ -63,8 +63,7 @@ def new(
         raise InputError(f"{folder}: no column is a channel that is known; describe them in campaign.toml: {columns}")
     held_out = _held_out(surveyed)
     by_file = {run.file: "validate" if run.file == held_out else "fit" for run in surveyed} | dict(known.roles)
-    changes = {run.file: asked_changes(run.file, loaded, ask) if ask else {} for run in surveyed} | dict(known.changes)
-    runs = [run_entry(run, by_file[run.file], found, changes[run.file]) for run in surveyed]
+    runs = [run_entry(run, by_file[run.file], found, _answers(run, loaded, ask, known.changes)) for run in surveyed]
     tables = _tables(surveyed) | {"plant": {key: {"relative": one} for key, one in chosen.tolerances.items()}}
     with atomic_write(path) as temporary:
         temporary.write_text(campaign_text(folder.resolve().name, chosen.file, tables, channels, runs), "utf-8")
@@ -74,6 +73,14 @@ def new(
         remarks.append(f"the sheave of the model, {loaded.sheave.mass:g} kg, is taken in every run; {SHEAVE_OF_RUN}")
     parts = {run.file: run.group.others for run in surveyed}
     return NewCampaign(path, surveyed[0].car.column, found, by_file, parts, tuple(remarks), check(path))
+
+
+def _answers(run: SurveyedRun, model: RopeModel, ask: Ask | None, stated: Mapping[str, Mapping[str, float]]) -> Answers:
+    """What is asked about a run: where its car starts, unless its column tells, and its sheave, unless that is `stated`."""
+    if ask is None:
+        return Answers(None, stated.get(run.file, {}))
+    start = None if run.motion.grounded else asked_start(run.file, model, ask)
+    return Answers(start, stated[run.file] if run.file in stated else asked_changes(run.file, model, ask))
 
 
 def _together(one: str | Path) -> list[Path]:
@@ -92,15 +99,17 @@ def _require_new(path: Path, files: Sequence[Path]) -> None:
 
 
 def _tables(runs: Sequence[SurveyedRun]) -> dict[str, dict[str, object]]:
-    """What `[file]` and `[car]` must state, because the files do not."""
+    """What `[file]` states because the files do not, and `[car]` or `[counterweight]` if they have one column."""
     units = {run.time_unit for run in runs}
     file: dict[str, object] = {}
     if len(units) == 1 and (unit := units.pop()):
         file["time_unit"] = unit
-    car: dict[str, object] = {"column": runs[0].car.column}
-    if runs[0].car.quantity != "position":
-        car["quantity"] = runs[0].car.quantity
-    return {"file": file, "car": car if len({run.car.column for run in runs}) == 1 else {}}
+    ends = {(run.motion.end, run.motion.column) for run in runs}
+    found: dict[str, dict[str, object]] = {"file": file}
+    if len(ends) == 1:
+        end, column = ends.pop()
+        found[end] = {"column": column}
+    return found
 
 
 def _held_out(runs: Sequence[SurveyedRun]) -> str | None:

@@ -78,7 +78,7 @@ class RunSpec(Component):
     set: dict[str, float | str] = Field(default_factory=dict, description='changes of the model, e.g. { "sheave.mass" = 120.0 }')
     files: dict[str, str] = Field(default_factory=dict, description='other files by channel, or "car": { cw_low = "laser.csv" }')
     columns: dict[str, str] = Field(
-        default_factory=dict, description='names in this run\'s files by channel: { cw_low = "Laser 1" }'
+        default_factory=dict, description='names in this run\'s files by channel: { cw_low = "Laser 1" }, "" where it has none'
     )
     readings: dict[str, RunReading] = Field(
         default_factory=dict, description='what differs in this run, by channel or "car": { cw_low = { unit = "m", sign = -1 } }'

@@ -32,6 +32,17 @@ class Samples:
     sure: bool = True
 
 
+def _present_column(table: RawTable, channel: str, spec: RunSpec) -> RawColumn:
+    """The column of a channel; raises `InputError` if there is none, with what to write for a run without it."""
+    try:
+        return find_column(table, spec.columns.get(channel, channel))
+    except InputError as error:
+        if channel in spec.columns or "no column" not in str(error):
+            raise
+        advice = f'if it was not measured in this run, write columns = {{ "{printable(channel)}" = "" }}'
+        raise InputError(f"{error}; {advice}") from None
+
+
 @dataclass
 class RunFiles:
     """The files of the run `spec` in `folder`, each read once; with `within`, all must lie in that folder.
@@ -66,7 +77,7 @@ class RunFiles:
         file = self.file_of(channel.column)
         try:
             table = self.table(file)
-            column = find_column(table, self.spec.columns.get(channel.column, channel.column))
+            column = _present_column(table, channel.column, self.spec)
             if problem := self.unit_problem(column, channel.unit, UNITS[channel.quantity], channel.factor, where):
                 raise InputError(problem)
             return self.samples(column, file, channel, CHANNEL_RULES)

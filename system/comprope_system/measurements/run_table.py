@@ -24,6 +24,7 @@ from .units import UNITS
 
 Floats = NDArray[np.float64]
 T = TypeVar("T")
+ABSENT = ""  # the name of a channel in a run that does not have it
 OVERLAP = 0.5  # share of the record of the car during which channels are recorded as well
 SAME_TIME = 1e-6  # s between samples of two clocks that are samples at one time
 __all__ = ["UNITS", "RunTable", "present_channels", "read_run_table"]
@@ -61,8 +62,9 @@ def read_run_table(folder: Path, spec: RunSpec, described: CampaignFile, height:
     car = _collect(problems, lambda: read_motion(files, described.car, "car", height, spec.car_start))
     counterweight = _collect(problems, lambda: read_motion(files, described.counterweight, "counterweight", height, None))
     read: dict[str, tuple[Floats, Floats]] = {}
+    absent = [one.column for one in described.channels if spec.columns.get(one.column) == ABSENT]
     for k, channel in enumerate(described.channels, 1):
-        if channel.unit in UNITS[channel.quantity]:
+        if channel.unit in UNITS[channel.quantity] and channel.column not in absent:
             own = _collect(problems, partial(_channel, files, channel, k, remarks))
             if own is not None:
                 read[channel.column] = own
@@ -72,9 +74,11 @@ def read_run_table(folder: Path, spec: RunSpec, described: CampaignFile, height:
     car, counterweight = _acting(car, counterweight, height)
     signals = {"car": car, **lateral} | ({} if counterweight is None else {"counterweight": counterweight})
     remarks += _elsewhere_in_time(car.time, read)
+    remarks += [f"{column}: not measured in this run" for column in absent]
     said = [*files.remarks, *(remark for one in signals.values() for remark in one.remarks), *remarks]
     said += idle_columns(files, described, [one.column for one in signals.values()])
-    return _from_zero(RunTable(car.time, car, counterweight, {}, tuple(dict.fromkeys(said)), {}, lateral, files.started), read)
+    table = _from_zero(RunTable(car.time, car, counterweight, {}, tuple(dict.fromkeys(said)), {}, lateral, files.started), read)
+    return replace(table, values=table.values | {column: np.full(len(table.time), np.nan) for column in absent})
 
 
 def _acting(

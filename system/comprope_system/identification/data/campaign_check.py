@@ -9,7 +9,7 @@ from comprope.rope.model_file import load, with_changes
 
 from ...measurements.campaign_file import CampaignFile, RunSpec, read_campaign_file
 from .campaign import campaign_path, channel_problems, read_run
-from .plausibility import remarks_on, remarks_on_record, successions
+from .plausibility import common_start, remarks_on, remarks_on_record, successions
 from .runs import Run
 
 
@@ -52,8 +52,11 @@ def check_campaign(folder: str | Path) -> CampaignCheck:
 
 
 def _with_successions(checks: list[RunCheck]) -> tuple[RunCheck, ...]:
-    """The runs with a remark on each that begins elsewhere than the one before ended, as far as their files have dates."""
-    said = successions([one.run for one in checks if one.run is not None])
+    """The runs with a remark on each that begins elsewhere than the one before ended, by dates, or where all others begin."""
+    runs = [one.run for one in checks if one.run is not None]
+    said = successions(runs)
+    for file, sentences in common_start(runs).items():
+        said[file] = [*said.get(file, ()), *sentences]
     return tuple(replace(one, remarks=(*one.remarks, *said.get(one.file, ()))) for one in checks)
 
 

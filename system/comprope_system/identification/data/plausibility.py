@@ -48,6 +48,21 @@ def successions(runs: Sequence[Run]) -> dict[str, list[str]]:
     return found
 
 
+def common_start(runs: Sequence[Run]) -> dict[str, list[str]]:
+    """Sentences by file about runs that all begin at the bottom landing and end at different heights.
+
+    Their positions probably count from the start of each run, unless all trips begin there.
+    """
+    begins = [float(run.trip.position(run.time[0])) for run in runs]
+    ends = [float(run.trip.position(run.time[-1])) for run in runs]
+    if len(runs) < PLAUSIBILITY.fewest_runs or np.ptp(ends) < PLAUSIBILITY.elsewhere:
+        return {}
+    if max(map(abs, begins)) > PLAUSIBILITY.same_start:
+        return {}
+    advice = "if car_position counts from the start of each run, write car_start"
+    return {run.file: [f"begins at the bottom landing, as every run does: {advice}"] for run in runs}
+
+
 def remarks_on_record(run: Run) -> Iterator[str]:
     """Sentences about gaps of the record and its rests, each with the file of the run."""
     steps = np.diff(run.time)

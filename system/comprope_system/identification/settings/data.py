@@ -120,6 +120,8 @@ class Plausibility:
     good_view: float = setting(0.95, "1", "the same share above which another arrangement is believed", JUDGEMENT)
     succession: float = setting(43200.0, "s", "longest time between two runs that are told to follow each other", JUDGEMENT)
     elsewhere: float = setting(0.5, "m", "distance between the end of a run and the start of the next that is told", JUDGEMENT)
+    fewest_runs: int = setting(2, "1", "runs that begin at one height from which on this is told", JUDGEMENT)
+    same_start: float = setting(0.005, "m", "distance of the starts from the bottom landing up to which it is told", JUDGEMENT)
     lateral: float = setting(1.5, "m", "lateral displacement that no shaft has room for", JUDGEMENT)
     axle: float = setting(0.5, "m", "displacement of the sheave that no guide has room for, in a pit that is smaller", JUDGEMENT)
     tension: float = setting(1.5, "1", "ratio of a tension at rest to the weight, or its inverse, that is told", JUDGEMENT)
