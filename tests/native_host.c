@@ -62,8 +62,14 @@ static void check(int passed, const char *what, int line)
     }
 }
 
+/* Which allocation from now on fails; none if negative. */
+static _Atomic long failing = -1;
+
 static void *take(size_t count, size_t size)
 {
+    if (failing >= 0 && failing-- == 0) {
+        return NULL;
+    }
     taken++;
     return calloc(count, size);
 }
@@ -316,6 +322,57 @@ static void scenario_wrong(void)
     CLOSE(fmu.library);
 }
 
+/* Everything that takes memory; returns whether all went well. Whatever fails first is an error, and told. */
+static int complete(const Fmu *fmu)
+{
+    const fmi2Real ends[] = {0.0, 50.0}, mass = 2000.0;
+    const fmi2ValueReference inputs[] = {given.car, given.counterweight};
+    fmi2FMUstate state = NULL, copy = NULL;
+    size_t size = 0;
+    fmi2Component one = fmu->Instantiate("one", fmi2CoSimulation, given.guid, "", &CALLBACKS, fmi2False, fmi2False);
+    if (!one) {
+        return 0;
+    }
+    fmi2Status status = fmu->SetReal(one, &given.mass, 1, &mass);
+    status |= fmu->SetReal(one, inputs, 2, ends);
+    status |= fmu->SetupExperiment(one, fmi2False, 0.0, 0.0, fmi2False, 0.0);
+    status |= fmu->EnterInitializationMode(one);
+    status |= fmu->ExitInitializationMode(one);
+    status |= fmu->DoStep(one, 0.0, 0.01, fmi2True);
+    status |= fmu->GetFMUstate(one, &state);
+    if (state && fmu->SerializedFMUstateSize(one, state, &size) == fmi2OK) {
+        char *bytes = malloc(size);
+        status |= fmu->SerializeFMUstate(one, state, bytes, size);
+        status |= fmu->DeSerializeFMUstate(one, bytes, size, &copy);
+        free(bytes);
+    }
+    status |= copy ? fmu->SetFMUstate(one, copy) : fmi2Error;
+    status |= fmu->DoStep(one, 0.01, 0.01, fmi2True);
+    fmu->FreeInstance(one);
+    return status == fmi2OK;
+}
+
+/* Every allocation fails in turn: an error with a message, and nothing is lost. */
+static void scenario_memory(void)
+{
+    const Fmu fmu = load();
+    long failed = 0;
+    for (;; failed++) {
+        const long before = messages;
+        failing = failed;
+        const int done = complete(&fmu);
+        CHECK(done == (failing >= 0));
+        if (failing >= 0) { /* there are not so many */
+            break;
+        }
+        CHECK(messages > before);
+        CHECK(taken == 0);
+    }
+    CHECK(failed >= 5);
+    failing = -1;
+    CLOSE(fmu.library);
+}
+
 int main(int count, char **arguments)
 {
     if (count < 8) {
@@ -338,6 +395,8 @@ int main(int count, char **arguments)
         scenario_states();
     } else if (!strcmp(scenario, "wrong")) {
         scenario_wrong();
+    } else if (!strcmp(scenario, "memory")) {
+        scenario_memory();
 #ifndef _WIN32
     } else if (!strcmp(scenario, "threads")) {
         scenario_threads();

@@ -263,9 +263,9 @@ def hosted(host: list[str], scenario: str, fmu: Path, binary: Path, number: int)
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the host needs POSIX threads")
 @pytest.mark.parametrize("name", HOSTED)
-@pytest.mark.parametrize(("scenario", "number"), [("cycle", 20), ("threads", 3), ("states", 1), ("wrong", 1)])
+@pytest.mark.parametrize(("scenario", "number"), [("cycle", 20), ("threads", 3), ("states", 1), ("wrong", 1), ("memory", 1)])
 def test_in_a_host_without_python(host: list[str], tmp_path: Path, name: str, scenario: str, number: int) -> None:
-    """Loaded and unloaded, in threads, saved and restored, called wrongly; memory is given back to the last byte."""
+    """Loaded and unloaded, in threads, saved and restored, called wrongly, without memory; all is given back to the last byte."""
     fmu = native_fmu("native", name)
     assert hosted(host, scenario, fmu, unpacked(fmu, tmp_path), number).startswith(f"{scenario}: 0 failures")
 
