@@ -1,6 +1,7 @@
-"""The native FMU in a host without Python: under sanitizers, under valgrind, and its Windows binary under wine.
+"""A native FMU in a host without Python: under sanitizers, under valgrind, and its Windows binary under wine.
 
     python benchmarks/hosts.py dist/CompensationRope_native.fmu [dist/CompensationRope_native_fmi3.fmu]
+    python benchmarks/hosts.py dist/ElevatorDrive_native.fmu [dist/ElevatorDrive_native_fmi3.fmu]
 
 The host is for FMI 2.0. The C sources compiled under sanitizers also take random calls from Python, for each FMU given.
 Needs gcc (its address and undefined-behaviour sanitizers); valgrind if it is there, and for Windows ziglang and wine64.
@@ -20,15 +21,16 @@ from fmpy import read_model_description
 
 from comprope.native import linker
 from comprope.native.c_source import kernels_header, model_source
+from comprope.native.drive_component import drive_component
 from comprope.native.llvm_ir import kernels
 from comprope.native.rope_component import rope_component
 from comprope.native.targets import TARGETS, machine_code
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
-from tests.native_fmu import tower
+from tests.native_fmu import HOSTED, drive, tower
 
 HOST = Path(__file__).parent.parent / "tests" / "native_host.c"
-SCENARIOS = {"cycle": 50, "threads": 5, "states": 1, "wrong": 1}
+SCENARIOS = {"cycle": 50, "threads": 5, "states": 1, "wrong": 1, "memory": 1}
 RIDE = 400  # steps of 10 ms
 WINE = ("wine64", "/usr/lib/wine/wine64")
 SANITIZED = "sanitized"  # GUID and instantiation token
@@ -38,9 +40,9 @@ _SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g",
 
 def arguments(fmu: str, guid: str, binary: str, number: int) -> list[str]:
     """The arguments of the host program for an FMU."""
-    places = {one.name: str(one.valueReference) for one in read_model_description(fmu).modelVariables}
-    names = ("car_position", "counterweight_position", "sheave.mass", "lateral_displacement[1]")
-    return [binary, guid, *(places[name] for name in names), str(number)]
+    description = read_model_description(fmu)
+    places = {one.name: str(one.valueReference) for one in description.modelVariables}
+    return [binary, guid, *(places[name] for name in HOSTED[description.modelName]), str(number)]
 
 
 def run(command: list[str], line: int = -1) -> str:
@@ -54,11 +56,15 @@ def run(command: list[str], line: int = -1) -> str:
 
 def sanitized(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
     """Every scenario with the C sources compiled under sanitizers; the kernels are as in the FMU."""
-    identity = model_source(tower(), SANITIZED, SANITIZED)
-    generated = {"kernels.h": kernels_header(rope_component(tower())), "model_variables.c": identity}
-    for name, content in (linker.c_sources("rope") | {name: text.encode() for name, text in generated.items()}).items():
+    component = drive_component(drive()) if read_model_description(fmu).modelName == "ElevatorDrive" else rope_component(tower())
+    generated = {
+        "kernels.h": kernels_header(component),
+        "model_variables.c": model_source(component.interface, SANITIZED, SANITIZED),
+    }
+    written = linker.c_sources(component.name) | {name: text.encode() for name, text in generated.items()}
+    for name, content in written.items():
         (stage / name).write_bytes(content)
-    (stage / "kernels.o").write_bytes(machine_code(kernels("rope", {}), TARGETS["linux"]))
+    (stage / "kernels.o").write_bytes(machine_code(kernels(component.name, {}), TARGETS["linux"]))
     sources = sorted(str(path) for path in stage.glob("*.c"))
     options = ["gcc", *_SANITIZED, f"-I{stage}", f"-I{linker.HEADERS}"]
     binary, host = str(stage / "sanitized.so"), str(stage / "host")
@@ -101,7 +107,7 @@ def in_valgrind(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
     guid, binary, host = read_model_description(fmu).guid, unpacked(fmu, stage, "linux"), str(stage / "plain")
     subprocess.run(["gcc", "-std=c11", "-O1", f"-I{linker.HEADERS}", str(HOST), "-o", host, "-ldl", "-lpthread"], check=True)
     valgrind = ["valgrind", "-q", "--error-exitcode=9", "--leak-check=full", "--errors-for-leak-kinds=definite"]
-    for scenario, number in {"cycle": 2, "states": 1, "wrong": 1}.items():
+    for scenario, number in {"cycle": 2, "states": 1, "wrong": 1, "memory": 1}.items():
         yield scenario, run([*valgrind, host, scenario, *arguments(fmu, guid, binary, number)])
 
 
@@ -109,7 +115,7 @@ def unpacked(fmu: str, stage: Path, target: str) -> str:
     """Path of the FMU's binary for a target."""
     place = TARGETS[target]
     with zipfile.ZipFile(fmu) as archive:
-        return archive.extract(f"binaries/{place.folder}/CompensationRope.{place.extension}", stage)
+        return archive.extract(f"binaries/{place.folder}/{Path(fmu).name.partition('_')[0]}.{place.extension}", stage)
 
 
 def in_wine(fmu: str, stage: Path, wine: str) -> Iterator[tuple[str, str]]:
@@ -119,11 +125,11 @@ def in_wine(fmu: str, stage: Path, wine: str) -> Iterator[tuple[str, str]]:
     zig = [sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-windows-gnu"]
     subprocess.run([*zig, "-std=c11", "-O1", f"-I{linker.HEADERS}", str(HOST), "-o", host], check=True)
     guid, windows_path = read_model_description(fmu).guid, "Z:" + binary.replace("/", "\\")
-    for scenario in ("cycle", "states", "wrong"):
+    for scenario in ("cycle", "states", "wrong", "memory"):
         yield scenario, run([wine, host, scenario, *arguments(fmu, guid, windows_path, SCENARIOS[scenario])])
     there = run([wine, host, "ride", *arguments(fmu, guid, windows_path, RIDE)], line=0)
     here = run([str(stage / "host"), "ride", *arguments(fmu, guid, unpacked(fmu, stage, "linux"), RIDE)], line=0)
-    yield "ride of 4 s", f"lateral displacement {there} m, on Linux {here} m"
+    yield "ride of 4 s", f"{there}, on Linux {here}"
 
 
 def main() -> None:

@@ -21,6 +21,11 @@ from comprope.user_cache import entry_folder, verified_files
 from comprope_system import presets
 
 ORIGIN = Origin("1.2.3", "MIT")
+# What native_host.c uses: two inputs, a parameter and an output.
+HOSTED = {
+    "CompensationRope": ("car_position", "counterweight_position", "sheave.mass", "lateral_displacement[1]"),
+    "ElevatorDrive": ("car_end_tension", "counterweight_end_tension", "plant.car_mass", "car_position"),
+}
 
 
 def _compiler_missing() -> bool:

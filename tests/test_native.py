@@ -37,7 +37,7 @@ from comprope.rope.runtime.status import MESSAGES, require_success
 from comprope_system import presets
 
 from .fmi_pair import Pair
-from .native_fmu import ORIGIN, compiler, native_fmu, tower
+from .native_fmu import HOSTED, ORIGIN, compiler, native_fmu, tower
 from .own_effects import FILES
 
 HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -71,6 +71,7 @@ def test_valid_and_complete(fmu: Path) -> None:
         names = set(archive.namelist())
         page = archive.read("documentation/index.html").decode()
     assert {"model.png", "documentation/licenses/license.txt", "documentation/licenses/fmi-headers.txt"} <= names
+    assert "documentation/c/model.c" in names and "documentation/c/rope.c" in names and "documentation/c/drive.c" not in names
     assert "sheave.mass" in page and "fmi2Error" in page and "pip install" not in page
     assert not any(name.endswith(".py") for name in names)
 
@@ -242,13 +243,6 @@ def compiled(source: Path, program: Path, *options: str) -> str:
     command = [*compiler, "-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", f"-I{HEADERS}", *options, str(source)]
     subprocess.run([*command, "-o", str(program), "-ldl", "-lpthread", "-lm"], check=True)
     return str(program)
-
-
-# Two inputs, a parameter and an output.
-HOSTED = {
-    "CompensationRope": ("car_position", "counterweight_position", "sheave.mass", "lateral_displacement[1]"),
-    "ElevatorDrive": ("car_end_tension", "counterweight_end_tension", "plant.car_mass", "car_position"),
-}
 
 
 def hosted(host: list[str], scenario: str, fmu: Path, binary: Path, number: int) -> str:

@@ -56,6 +56,21 @@ def test_valid_and_complete(fmu: Path) -> None:
     assert "FMI 3.0 co-simulation" in page and "fmi3Error" in page and "fmi2" not in page
 
 
+def test_the_terminals_of_drive_and_rope_fit_each_other() -> None:
+    """By the rule "plug": as many members of the same names; an output on one side is an input on the other."""
+    found = {}
+    for name in ("CompensationRope", "ElevatorDrive"):
+        path = native_fmu("native_fmi3", name)
+        with zipfile.ZipFile(path) as archive:
+            (terminal,) = etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml")).iter("Terminal")
+        roles = {one.name: one.causality for one in read_model_description(str(path)).modelVariables}
+        assert terminal.get("matchingRule") == "plug"
+        found[name] = {one.get("memberName"): roles[one.get("variableName")] for one in terminal}
+    rope, drive = found.values()
+    assert set(rope) == set(drive) and len(rope) == 8
+    assert all({rope[name], drive[name]} == {"input", "output"} for name in rope)
+
+
 def test_every_function_of_the_standard_is_there(fmu: Path) -> None:
     """The standard demands even those of interface types that an FMU does not have."""
     header = (FMPY / "c-code" / "fmi3Functions.h").read_text()

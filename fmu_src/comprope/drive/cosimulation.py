@@ -18,7 +18,7 @@ from ..validation_messages import validation_problems
 from .parameters import Drive
 from .simulator import DriveSimulator
 from .trajectory.reference_trajectory import first_trajectory
-from .variables import variables_of
+from .variables import TERMINAL, variables_of
 
 NAME = "ElevatorDrive"
 # Source of the entry module in the FMU, which creates the interface.
@@ -36,7 +36,15 @@ def interface(drive: Drive | None = None) -> ModelInterface:
     """The drive as a model interface; parameters have the start values of `drive`, by default the declared ones."""
     chosen = drive or Drive()
     stop_time = ceil(first_trajectory(chosen).end_time + _REST_AFTER)
-    return ModelInterface(NAME, _DESCRIPTION, variables_of(chosen), create, stop_time=float(stop_time), pictures=_PICTURES)
+    return ModelInterface(
+        NAME,
+        _DESCRIPTION,
+        variables_of(chosen),
+        create,
+        stop_time=float(stop_time),
+        pictures=_PICTURES,
+        terminals=(TERMINAL,),
+    )
 
 
 def create(parameters: Mapping[str, Any], inputs: Mapping[str, Any], start_time: float) -> DriveSimulator:

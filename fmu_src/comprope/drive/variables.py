@@ -1,6 +1,6 @@
 """The drive's variables: parameters, inputs and outputs, in the order in which kernels have inputs and outputs."""
 
-from ..fmi.model_interface import Variable, parameters_of
+from ..fmi.model_interface import Terminal, Variable, parameters_of
 from .parameters import Drive
 
 INPUTS = ("destination", "car_end_tension", "counterweight_end_tension")
@@ -24,6 +24,12 @@ FLAGS = (
     ("trip_finished", "the last trip is finished: the reference is at rest at its destination"),
 )
 
+
+
+_MOTION = (f"{end}_{rate}" for end in ("car", "counterweight") for rate in ("position", "velocity", "acceleration"))
+TERMINAL = Terminal(
+    "compensation_ropes", "motion of the compensation ropes' ends, and what one rope pulls there", (*_MOTION, *TENSIONS)
+)
 
 
 def variables_of(drive: Drive) -> tuple[Variable, ...]:

@@ -65,6 +65,15 @@ class Simulator(Protocol):
 
 
 @dataclass(frozen=True)
+class Terminal:
+    """Variables that are connected together; each belongs to that of the same name in the terminal of another model."""
+
+    name: str
+    help: str
+    members: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class ModelInterface:
     """A model as slave, package and documentation need it.
 
@@ -72,7 +81,7 @@ class ModelInterface:
     `InputError` with one sentence that holds all problems, joined by "; ".
     `stop_time` and `step_size` [s] are the defaults for an importer. `pictures` are SVG files that show what the
     variables are. `reference_inputs(time)` gives real inputs by name for the simulation of 4 s whose result is kept as a
-    reference; other inputs hold their start values.
+    reference; other inputs hold their start values. FMI 3.0 has the `terminals`.
     """
 
     name: str
@@ -83,6 +92,7 @@ class ModelInterface:
     step_size: float = 0.001
     pictures: tuple[Path, ...] = ()
     reference_inputs: Callable[[float], Mapping[str, float]] = lambda _time: {}
+    terminals: tuple[Terminal, ...] = ()
 
     def of_role(self, role: Role) -> tuple[Variable, ...]:
         """The variables of one role, in their order."""

@@ -81,4 +81,10 @@ def interface_problems(interface: ModelInterface) -> list[str]:
             found.append(f"{one.name}: parameters and inputs, and only they, have a start value")
         elif one.role != "output":
             found += range_problems([one], {one.name: one.start})
+    found += [
+        f"terminal {terminal.name}: {name} is no variable"
+        for terminal in interface.terminals
+        for name in terminal.members
+        if name not in names
+    ]
     return found

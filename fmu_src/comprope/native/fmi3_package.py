@@ -4,7 +4,13 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
 from ..fmi.icon import SIZE, icon
-from ..fmi.model_description import default_experiment, dependencies, general_attributes, type_attributes, unit_definitions
+from ..fmi.model_description import (
+    default_experiment,
+    dependencies,
+    general_attributes,
+    type_attributes,
+    unit_definitions,
+)
 from ..fmi.model_interface import ModelInterface, Variable
 from .fmi_version import FmiVersion
 from .targets import TARGETS
@@ -21,6 +27,8 @@ def model_description(interface: ModelInterface, version: str, token: str) -> by
     root = ET.Element("fmiModelDescription", given | {"variableNamingConvention": "structured"})
     ET.SubElement(root, "CoSimulation", {"modelIdentifier": interface.name} | dict.fromkeys(_ABLE, "true"))
     root.append(unit_definitions(interface.variables))
+    categories = ET.SubElement(root, "LogCategories")
+    ET.SubElement(categories, "Category", name="logStatusError", description="Calls refused and steps that failed, in a sentence")
     root.append(default_experiment(interface))
     variables = ET.SubElement(root, "ModelVariables")
     for place, one in enumerate(interface.variables):
@@ -58,13 +66,21 @@ def binary_files(name: str, binaries: Mapping[str, bytes]) -> dict[str, bytes]:
     return {f"binaries/{one.platform}/{name}.{one.extension}": binaries[target] for target, one in places.items()}
 
 
-def icon_files() -> dict[str, bytes]:
-    """The icon, and the file that declares it."""
+def icon_files(interface: ModelInterface) -> dict[str, bytes]:
+    """The icon, and the file that declares it and the terminals."""
     root = ET.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
     picture = ET.SubElement(root, "GraphicalRepresentation")
     corners = {"x1": "0", "y1": "0", "x2": str(SIZE), "y2": str(SIZE)}
     ET.SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
     ET.SubElement(picture, "Icon", corners)
+    if interface.terminals:
+        terminals = ET.SubElement(root, "Terminals")
+        for one in interface.terminals:
+            given = {"name": one.name, "matchingRule": "plug", "description": one.help}
+            terminal = ET.SubElement(terminals, "Terminal", given)
+            for name in one.members:
+                member = {"variableName": name, "memberName": name, "variableKind": "signal"}
+                ET.SubElement(terminal, "TerminalMemberVariable", member)
     ET.indent(root)
     text = ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
     return {"terminalsAndIcons/terminalsAndIcons.xml": text, "terminalsAndIcons/icon.png": icon()}

@@ -11,11 +11,12 @@ class FmiVersion:
     """A version of FMI.
 
     `ending` is added to the FMU's name. `model_description(interface, version, identity)` writes the model description,
-    `binary_files(name, binaries)` gives the binaries of some targets by path, and `icon_files()` the files of the icon.
+    `binary_files(name, binaries)` gives the binaries of some targets by path, and `icon_files(interface)` the files of the icon
+    and the terminals.
     """
 
     version: str
     ending: str
     model_description: Callable[[ModelInterface, str, str], bytes]
     binary_files: Callable[[str, Mapping[str, bytes]], dict[str, bytes]]
-    icon_files: Callable[[], dict[str, bytes]]
+    icon_files: Callable[[ModelInterface], dict[str, bytes]]

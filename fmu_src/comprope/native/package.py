@@ -36,8 +36,8 @@ def build_native(
 ) -> list[Path]:
     """Write `<out>/<name>_<ending of the version>.fmu` for each version, atomically, and return their paths.
 
-    They have binaries for `targets` (see `targets.TARGETS`), by default all that can be linked for on this system. The same
-    sources and tools give the same bytes.
+    They have binaries for `targets` (see `targets.TARGETS`), by default all that can be linked for on this system, and the C
+    sources of the functions of the FMI for reading. The same sources and tools give the same bytes.
     """
     interface = component.interface
     if problems := interface_problems(interface):
@@ -45,6 +45,7 @@ def build_native(
     code, chosen = kernels(component.name, component.effect_files), list(targets) or linker.linkable_targets()
     compiled = {name: machine_code(code, TARGETS[name]) for name in chosen}
     shared = reference_result(interface)
+    shared |= {f"documentation/c/{name}": content for name, content in linker.c_sources(component.name).items()}
     identity = _identities(component, origin, shared | {f"kernels/{name}": one for name, one in compiled.items()})
     binaries = linker.link_binaries(interface.name, compiled, _sources(component, identity[FMI2], identity[FMI3]))
     for one in versions:
@@ -86,7 +87,7 @@ def _version_files(
         "documentation/index.html": documentation_page(interface, origin.version, fmi=version.version, systems=systems).encode(),
         "documentation/licenses/license.txt": origin.licence.encode(),
         "documentation/licenses/fmi-headers.txt": "\n\n".join(map(_licence, _HEADERS)).encode(),
-        **version.icon_files(),
+        **version.icon_files(interface),
     }
 
 

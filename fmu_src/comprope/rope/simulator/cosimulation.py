@@ -13,7 +13,7 @@ from ..parameters import Base
 from ..runtime.parameter_vector import COMPONENTS, DECLARED
 from .end_motion import EndMotion
 from .rope import CompensationRope
-from .variables import ENDS, variables_of
+from .variables import ENDS, TERMINAL, variables_of
 
 NAME = "CompensationRope"
 # What makes the interface inside an FMU, from the files of `model_file.bundle`. Who built it has consented to run them.
@@ -36,7 +36,7 @@ def interface(model: Base) -> ModelInterface:
     """Variables and maker of the rope; parameters start at the values of `model`, sensors are as many as its."""
     make = partial(create, own_effects=tuple(getattr(model, "own_effects", ())))
     motion = partial(_ends_rising, model.shaft.height)
-    return ModelInterface(NAME, _DESCRIPTION, variables_of(model), make, 30.0, _STEP, _PICTURES, motion)
+    return ModelInterface(NAME, _DESCRIPTION, variables_of(model), make, 30.0, _STEP, _PICTURES, motion, (TERMINAL,))
 
 
 def _ends_rising(height: float, time: float) -> dict[str, float]:

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ...fmi.model_interface import Kind, Variable, parameters_of
+from ...fmi.model_interface import Kind, Terminal, Variable, parameters_of
 from ..effects import REGISTRY, names_of
 from ..parameters import Base
 from ..runtime.parameter_vector import COMPONENTS
@@ -33,6 +33,12 @@ _OUTPUTS = (  # name, unit, nominal, help
 _COUNTS = (
     ("newton_iterations", "Newton iterations since the start"),
     ("halvings", "time steps halved since the start, because they did not converge"),
+)
+
+
+_MOTION = (f"{end}_{rate}" for end in ENDS for rate in ("position", "velocity", "acceleration"))
+TERMINAL = Terminal(
+    "ends", "motion of the rope's ends, and what it pulls there", (*_MOTION, *(f"{end}_end_tension" for end in ENDS))
 )
 
 
