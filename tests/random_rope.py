@@ -23,9 +23,10 @@ def random_state(changes: dict[str, float], seed: int = 0) -> RopeWorkspace:
     """A rope in a short shaft, bent and moving at random, on a sheave that turns under it.
 
     Waves of 0.1 mm and a kink of a micrometre at each node keep part of the wrap in contact and part
-    of it out; velocities of 0.2 m/s give every point of the wrap another slip.
+    of it out; velocities of 0.2 m/s give every point of the wrap another slip. It is a rod, unless `changes` says otherwise:
+    differences over 10 nm do not resolve how a segment loses its stiffness within 500 nm.
     """
-    hung = rope(changes, STUB)
+    hung = rope({"rope.compression_ratio": 1.0} | changes, STUB)
     hung.solve_equilibrium(0.0, 1.0)
     do, n, m, random = RopeWorkspace(hung.n, hung.p), hung.n, hung.n + 1, np.random.default_rng(seed)
     do.state.from_bytes(hung.state.to_bytes())

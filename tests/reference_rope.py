@@ -11,6 +11,8 @@ import numpy as np
 
 from comprope.rope.parameters import Base
 
+SLACK_STRAIN = 1e-5  # over which a rope that is pushed loses its stiffness
+SOFT = np.polynomial.Polynomial([1.0, -1.0]) ** 2 * np.polynomial.Polynomial([1.0, 2.0])
 POINTS, FADE = 8, 1e-4  # quadrature points of a contact piece; penetration over which contact damping fades in [m]
 
 
@@ -51,10 +53,22 @@ class ReferenceRope:
         return (self.tangent * np.diff(self.v[:, :-1], axis=1)).sum(0)
 
     @cached_property
+    def elastic(self) -> np.ndarray:
+        """Tension without its damping."""
+        return self.carried(self.model.rope.axial_stiffness * (self.length / self.element - 1.0))
+
+    @cached_property
     def tension(self) -> np.ndarray:
         rope = self.model.rope
         strain, rate = self.length / self.element - 1.0, self.stretching / self.element
-        return rope.axial_stiffness * strain + rope.axial_damping * rate
+        return self.carried(rope.axial_stiffness * strain + rope.axial_damping * rate)
+
+    def carried(self, rod: np.ndarray) -> np.ndarray:
+        """What a rope carries where a rod carries `rod`: its slope falls from 1 to r over X_s as (1 - z)^2 (1 + 2 z)."""
+        r, most = self.model.rope.compression_ratio, SLACK_STRAIN * self.model.rope.axial_stiffness
+        z = np.maximum(-rod / most, 0.0)
+        soft = SOFT.integ()(np.minimum(z, 1.0))
+        return np.where(rod >= 0.0, rod, -most * (r * z + (1.0 - r) * soft))
 
     # -- bending of the inner nodes --------------------------------------------------------------
 
@@ -141,17 +155,25 @@ class ReferenceRope:
         return {
             "kinetic": float(moving[:, :-1].sum()),
             "gravity": float(-(self.weights * self.q).sum()),
-            "tension": float(0.5 * rope.axial_stiffness * ((self.length - self.element) ** 2).sum() / self.element),
+            "tension": float(self.stretched().sum() * self.element),
             "bending": float(0.5 * rope.bending_stiffness * (self.curvature**2).sum() * self.element),
             "contact": float(self.contact[1]["contact"]),
             "sheave": float(moving[:, -1].sum()),
         }
 
+    def stretched(self) -> np.ndarray:
+        """Elastic energy per length of each element [J/m], the integral of its force over its strain."""
+        stiffness, r = self.model.rope.axial_stiffness, self.model.rope.compression_ratio
+        most, rod = SLACK_STRAIN * stiffness, stiffness * (self.length / self.element - 1.0)
+        z = np.maximum(-rod / most, 0.0)
+        soft = SOFT.integ().integ()(np.minimum(z, 1.0)) + 0.5 * np.maximum(z - 1.0, 0.0)
+        return np.where(rod >= 0.0, 0.5 * rod**2 / stiffness, most * SLACK_STRAIN * (0.5 * r * z**2 + (1.0 - r) * soft))
+
     def losses(self) -> dict[str, float]:
         """What each damping takes out [W]."""
         rope = self.model.rope
         return {
-            "axial_damping": float(rope.axial_damping * (self.stretching**2).sum() / self.element),
+            "axial_damping": float(((self.tension - self.elastic) * self.stretching).sum()),
             "bending_damping": float(rope.bending_damping * (self.curving**2).sum() * self.element),
             "external_damping": float(rope.external_damping * self.element * (self.v[:, 1 : self.nodes - 1] ** 2).sum()),
             "contact_damping": float(self.contact[1]["contact_damping"]),

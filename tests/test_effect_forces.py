@@ -73,6 +73,12 @@ def coulomb(size: float, v: float, v0: float) -> float:
     return -size * v / np.hypot(v, v0)
 
 
+def held(speed: float) -> float:
+    """A tie-down's force: 1e3 N s/m, and 1e5 N s/m above 0.3 m/s of a rise, taking hold over 10 mm/s."""
+    over = max(speed - 0.3, 0.0)
+    return 1e3 * speed + 1e5 * over**2 / (over + 0.01)
+
+
 # The force (2, n + 1) that an effect adds at its nominal values: 1.1 for the drag coefficient, 5 N.m, 0.1 N.m.s, 20 N ...
 FORMULAS: dict[str, Callable[[Bent, RopeWorkspace], np.ndarray]] = {
     "air_drag": lambda bent, do: bent.drag(0.0),
@@ -82,6 +88,7 @@ FORMULAS: dict[str, Callable[[Bent, RopeWorkspace], np.ndarray]] = {
     "bearing_friction": lambda bent, do: bent.on_sheave(torque=coulomb(5.0, bent.spin, 0.01) - 0.1 * bent.spin),
     "guide_friction": lambda bent, do: bent.on_sheave(coulomb(20.0, bent.rise, 5e-4)),
     "sheave_damper": lambda bent, do: bent.on_sheave(-1e4 * bent.rise),
+    "tie_down": lambda bent, do: bent.on_sheave(-held(bent.rise)),
 }
 
 
@@ -118,7 +125,7 @@ def test_effect_moves_the_ends_as_its_formula_says(effect: str, changes: dict[st
 
 
 def test_every_effect_is_compared_with_a_formula() -> None:
-    assert {"building_sway", "attachment_offset", "sheave_eccentricity", *FORMULAS} == set(REGISTRY)
+    assert {"building_sway", "attachment_offset", "sheave_eccentricity", "end_stops", *FORMULAS} == set(REGISTRY)
 
 
 SHAFT = {"shaft.height": 4.0, "rope.bending_stiffness": 2.0}

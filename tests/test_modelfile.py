@@ -155,5 +155,5 @@ def test_the_order_of_effects_stays() -> None:
     built_in = [name for name, effect in REGISTRY.items() if not effect.source]
     assert built_in == [
         "air_drag", "shaft_airflow", "bending_hysteresis", "intrinsic_curvature", "building_sway", "attachment_offset",
-        "sheave_eccentricity", "bearing_friction", "guide_friction", "sheave_damper",
+        "sheave_eccentricity", "bearing_friction", "guide_friction", "sheave_damper", "end_stops", "tie_down",
     ]  # fmt: skip

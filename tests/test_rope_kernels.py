@@ -30,7 +30,7 @@ from .random_rope import COMPANIONS, TIME, forces, nominal, random_state
 from .rope_tower import STUB, TOWER, ride, rope
 
 # Effects that can only take energy, whatever the rope does. Wire friction does so over a cycle, not at each moment.
-DISSIPATIVE = ("air_drag", "bearing_friction", "guide_friction", "sheave_damper")
+DISSIPATIVE = ("air_drag", "bearing_friction", "guide_friction", "sheave_damper", "tie_down")
 UNDAMPED = {"rope.axial_damping": 0.0, "rope.bending_damping": 0.0}
 
 

@@ -32,6 +32,9 @@ class Rope(Component):
     element_length: float = quantity(
         "m", "length of one element; adjusted so that whole elements give the rope's length", 0.005, 1.0, default=0.05
     )
+    compression_ratio: float = quantity(
+        "1", "axial stiffness in compression over that in tension; 1 for a rod that does not buckle", 1e-4, 1.0, default=1e-3
+    )
 
 
 class Sheave(Component):
@@ -43,6 +46,9 @@ class Sheave(Component):
     mass: float = quantity("kg", "mass", 0.1, 20000.0, nominal=120.0)
     radius: float = quantity("m", "radius to the rope's centre line", 0.05, 3.0, nominal=0.4)
     inertia: float = quantity("kg.m2", "moment of inertia about the axle", 1e-4, 1e5, nominal=10.0)
+    limit_switch: float = quantity(
+        "m", "travel of the axle, up or down from where it is built, at which its limit switch trips", 1e-3, 100.0, default=100.0
+    )
     ropes: float = quantity("1", "ropes that share mass and inertia; forces are those of one rope", 1.0, 50.0, default=1.0)
 
     @field_validator("ropes")

@@ -47,6 +47,13 @@ ROPE = (
     _rope("energy_residual", "J", "energy not accounted for; zero for an exact solution"),
     _rope("newton_iterations", "1", "Newton iterations so far"),
     _rope("halvings", "1", "time steps halved so far because they did not converge"),
+    _rope("slack_length", "m", "length of rope that is slack"),
+    _rope("slack_duration", "s", "time so far with slack rope"),
+    _rope("least_element_tension", "N", "least tension along the rope"),
+    _rope("largest_element_tension", "N", "largest tension along the rope"),
+    _rope("peak_element_tension", "N", "largest tension along the rope so far, at every time step"),
+    _rope("limit_switch", "1", "1 from when the sheave's limit switch has tripped"),
+    _rope("limit_switch_time", "s", "time at which it tripped; -1 if it has not"),
 )
 
 

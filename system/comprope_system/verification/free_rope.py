@@ -87,7 +87,7 @@ class FreeRope:
         for _ in range(ITERATIONS):
             self._residual()
             self._solve(h)
-            if newmark.correct(n, self.p, h, self.r, motion, self.counters) < TOLERANCE:
+            if newmark.correct(n, self.p, newmark.time_rule(self.p, False), h, self.r, motion, self.counters) < TOLERANCE:
                 return
         raise ArithmeticError(f"no convergence at t = {time:g} s")
 

@@ -53,7 +53,8 @@ class Effect(Component):
     effects' values that this one cannot do without. The response of a `proportional` effect grows in proportion to its
     quantities, so that one size of it tells of all; those of friction and hysteresis do not.
 
-    `source` is the file of a user's own effect.
+    `source` is the file of a user's own effect. With `hypothesis` False a diagnosis does not ask whether it is missing: trips
+    do not show it.
     """
 
     name: ClassVar[str]
@@ -65,6 +66,7 @@ class Effect(Component):
     polar: ClassVar[tuple[str, str] | None] = None
     brings: ClassVar[dict[str, float]] = {}
     proportional: ClassVar[bool] = False
+    hypothesis: ClassVar[bool] = True
 
 
 REGISTRY: dict[str, type[Effect]] = {}

@@ -7,6 +7,7 @@ from ..mechanics.effect_hooks import all_begin
 from ..mechanics.end_conditions import PATH, PATHS, place_ends_of_state
 from ..mechanics.energy import begin_balance
 from ..mechanics.equations_of_motion import forces_of_state
+from ..mechanics.run_record import record_step
 from ..runtime.kernel_arguments import Ends, Motion, RopeData, State, Weights, Workspace
 from ..runtime.parameter_vector import ELEMENT, HEIGHT, PIT, R
 from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_PLACE, OUT_OF_REACH, SUCCESS
@@ -91,4 +92,5 @@ def start_at_rest(rope: RopeData, ends: Ends, state: State, work: Workspace, t: 
             all_begin(n, p, work.w, state.history)
     copy(2 * (n + 1), work.f, state.f)
     begin_balance(rope, state, work)
+    record_step(n, t, 0.0, p, q, work.w, state.record)
     return SUCCESS

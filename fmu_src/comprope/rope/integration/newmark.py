@@ -4,12 +4,19 @@ Acceleration a is the unknown; q and v follow from it by Newmark's rule with bet
 and gamma = 1/2 + alpha, and the forces are weighted (1 - alpha) f_new + alpha f_old (Hilber, Hughes
 and Taylor 1977). alpha = 0 is the paper's rule (1/4, 1/2).
 
+Steps that begin or end with slack rope have beta = 1/2, gamma = 1 and alpha = 0: the forces are those at the end of the step, and
+nodes move by the mean of their velocities. With segments that lose their stiffness within a thousandth of what they move in a
+step, forces of its start would put in energy without bound; those of its end never do so while the forces' potential is convex
+(M dv = h f, dq = h (v + dv / 2), so the kinetic energy grows by f dq, which is at most what the potential loses). A body that
+falls freely moves exactly.
+
 The tangent is factored once per step and again only when the corrections do not shrink fast. A
 correction below `TOLERANCE` metres ends the iteration. A step that does not converge is restored and
 halved, up to `MOST_HALVINGS` times; what is accepted has always converged.
 """
 
 from math import isfinite
+from typing import NamedTuple
 
 from ...kernels.jit import kernel
 from ..linalg.block_band import back_substitute, factor, forward_substitute
@@ -32,11 +39,30 @@ STEPS, NEWTON, FACTORED, HALVED, WORST = range(5)
 COUNTERS = 5
 
 
+class Rule(NamedTuple):
+    """Newmark's rule with the weighting of forces: alpha, beta, gamma, and (1 - alpha) beta."""
+
+    alpha: float
+    beta: float
+    gamma: float
+    weight: float
+
+
 @kernel
-def newmark_weights(p, h):
-    """Weights (ck, cc) of stiffness and damping in the tangent of a step of length h."""
+def time_rule(p, slack):
+    """The rule of a step, of one with slack rope or of another."""
+    if slack:
+        return Rule(0.0, 0.5, 1.0, 0.5)
     alpha = p[ALPHA]
-    return Weights((1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha) * h * h, (1.0 - alpha) * (0.5 + alpha) * h)
+    return Rule(
+        alpha, 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha, (1.0 - alpha) * 0.25 * (1.0 + alpha) * (1.0 + alpha)
+    )
+
+
+@kernel
+def newmark_weights(rule, h):
+    """Weights (ck, cc) of stiffness and damping in the tangent of a step of length h."""
+    return Weights(rule.weight * h * h, (1.0 - rule.alpha) * rule.gamma * h)
 
 
 @kernel
@@ -50,7 +76,7 @@ def predict(n, h, state, motion):
 
 
 @kernel
-def advect_acceleration(n, p, h, state, motion, contact):
+def advect_acceleration(n, p, rule, h, state, motion, contact):
     """Start of the iteration for the nodes near the sheave, which the rope carries along its own shape.
 
     That shape hardly changes in a step, but a node runs along it by a good part of an element, and its
@@ -58,8 +84,7 @@ def advect_acceleration(n, p, h, state, motion, contact):
     of the place that it comes to.
     """
     q0, v0, a0, q, v, a = state.q, state.v, state.a, motion.q, motion.v, motion.a
-    m, alpha, per_l = n + 1, p[ALPHA], 1.0 / p[ELEMENT]
-    beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
+    m, beta, gamma, per_l = n + 1, rule.beta, rule.gamma, 1.0 / p[ELEMENT]
     find_contact_range(n, p, q0, q0[n], 0.0, contact)
     first, last = max(int(contact[FIRST]) - BESIDE_GROOVE, 1), min(int(contact[LAST]) + BESIDE_GROOVE, n - 2)
     for i in range(first, last + 1):
@@ -75,9 +100,9 @@ def advect_acceleration(n, p, h, state, motion, contact):
 
 
 @kernel
-def residual(n, p, a, f, f0, r):
+def residual(n, p, rule, a, f, f0, r):
     """Set r = (1 - alpha) f + alpha f_old - M a; prescribed ends have none."""
-    m, alpha, mass = n + 1, p[ALPHA], node_mass(p)
+    m, alpha, mass = n + 1, rule.alpha, node_mass(p)
     for i in range(1, n - 1):
         r[i] = (1.0 - alpha) * f[i] + alpha * f0[i] - mass * a[i]
         r[m + i] = (1.0 - alpha) * f[m + i] + alpha * f0[m + i] - mass * a[m + i]
@@ -89,12 +114,10 @@ def residual(n, p, a, f, f0, r):
 
 
 @kernel
-def correct(n, p, h, r, motion, counters):
+def correct(n, p, rule, h, r, motion, counters):
     """Add the correction r of the acceleration; returns the largest change of position [m]."""
     q, v, a = motion.q, motion.v, motion.a
-    m, alpha = n + 1, p[ALPHA]
-    beta, gamma = 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha
-    largest = 0.0
+    m, beta, gamma, largest = n + 1, rule.beta, rule.gamma, 0.0
     for i in range(2 * m):
         change = beta * h * h * r[i]
         a[i] += r[i]
@@ -108,14 +131,14 @@ def correct(n, p, h, r, motion, counters):
 
 
 @kernel
-def factor_tangent(n, t, p, h, motion, work):
+def factor_tangent(n, t, p, weights, motion, work):
     """Assemble and factor the tangent of the last evaluation of the forces; work.r is eliminated down to the zone.
 
     The sheave's column of the factor keeps which nodes the zone begins and ends with.
     """
     A, L, B, contact = work.A, work.L, work.B, work.contact
     first, last = int(contact[FIRST]) - 1, int(contact[LAST]) + 1
-    tangent_band(n, t, p, motion, work, 1.0, newmark_weights(p, h))
+    tangent_band(n, t, p, motion, work, 1.0, weights)
     factor(n, A, L, work.r, first, last)
     assemble_bordered(n, A, work.Z, B, first, last)
     factor_bordered(2 * (last - first + 1), B)
@@ -126,28 +149,29 @@ def factor_tangent(n, t, p, h, motion, work):
 def newmark_step(n, p, path, step, state, motion, work):
     """Try one time step from `state`, and set `motion` to what it arrives at; True when Newton's iteration has converged."""
     f, r, L, contact, counters = work.f, work.r, work.L, work.contact, state.counters
-    t, h, weights = step.t, step.h, newmark_weights(p, step.h)
+    t, h, rule = step.t, step.h, time_rule(p, step.slack)
+    weights = newmark_weights(rule, h)
     predict(n, h, state, motion)
-    advect_acceleration(n, p, h, state, motion, contact)
+    advect_acceleration(n, p, rule, h, state, motion, contact)
     place_ends(n, t, p, path, step.dt, step.s, motion)
     before, fresh, first, last = 1e300, True, 0, 0
     for _ in range(ITERATIONS):
         forces(n, t, p, motion, state.history, work, weights, fresh)
-        residual(n, p, motion.a, f, state.f, r)
+        residual(n, p, rule, motion.a, f, state.f, r)
         if fresh:
-            factor_tangent(n, t, p, h, motion, work)
+            factor_tangent(n, t, p, weights, motion, work)
             first, last = int(contact[FIRST]) - 1, int(contact[LAST]) + 1
             counters[FACTORED] += 1
         else:
             forward_substitute(n, L, r, first, last)
         solve_bordered(n, work.B, r, first, last)
         back_substitute(n, L, r, first, last)
-        change = correct(n, p, h, r, motion, counters)
+        change = correct(n, p, rule, h, r, motion, counters)
         counters[NEWTON] += 1
         if not isfinite(change):
             return False
         if change < TOLERANCE:
-            balance_forces(n, p, motion.a, state.f, f)
+            balance_forces(n, p, rule, motion.a, state.f, f)
             return True
         fresh = change > SLOW * before
         before = change
@@ -155,12 +179,12 @@ def newmark_step(n, p, path, step, state, motion, work):
 
 
 @kernel
-def balance_forces(n, p, a, f0, f):
+def balance_forces(n, p, rule, a, f0, f):
     """Forces that balance the accepted accelerations exactly, from the weighted balance of the step.
 
     The ends keep the forces of the last evaluation.
     """
-    m, alpha, mass = n + 1, p[ALPHA], node_mass(p)
+    m, alpha, mass = n + 1, rule.alpha, node_mass(p)
     for i in range(1, n - 1):
         f[i] = (mass * a[i] - alpha * f0[i]) / (1.0 - alpha)
         f[m + i] = (mass * a[m + i] - alpha * f0[m + i]) / (1.0 - alpha)

@@ -3,10 +3,11 @@
 from ...kernels.jit import kernel
 from ..mechanics.energy import EFFECTS, ENDS_WORK, LOSSES, SPENT, STORED, hold_forces
 from ..mechanics.equations_of_motion import forces_of_state
+from ..mechanics.run_record import PEAK, SLACK_TIME, TRIP_TIME, TRIPPED, largest_tension, least_tension, slack_segments
 from ..mechanics.sensors import find_side_maximum, read_sensor
 from ..runtime.array_layout import FORCE_X
 from ..runtime.kernel_arguments import Outputs, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import PIT, R
+from ..runtime.parameter_vector import ELEMENT, PIT, R
 from .newmark import HALVED, NEWTON
 
 KINDS, SPENDERS = len(STORED), len(SPENT)
@@ -15,6 +16,8 @@ OUTPUTS = (
     "sheave_force", "sheave_displacement", "sheave_velocity", "sheave_angle", "sheave_angular_velocity", "car_end_tension",
     "counterweight_end_tension", "car_side_max_displacement", "car_side_max_height", "counterweight_side_max_displacement",
     "counterweight_side_max_height", "energy_residual", "newton_iterations", "halvings",
+    "slack_length", "slack_duration", "least_element_tension", "largest_element_tension", "peak_element_tension",
+    "limit_switch", "limit_switch_time",
 )  # fmt: skip
 
 
@@ -69,3 +72,13 @@ def evaluate_outputs(rope: RopeData, state: State, work: Workspace, outputs: Out
         y[b + 7 + 2 * k], y[b + 8 + 2 * k] = reading[0] - p[R], -reading[1]
     y[b + 11] = energy_residual(rope, state)
     y[b + 12], y[b + 13] = state.counters[NEWTON], state.counters[HALVED]
+    evaluate_record(n, p, work.w, state.record, y, b + 14)
+
+
+@kernel
+def evaluate_record(n, p, w, record, y, b):
+    """Set y from b on to slack [m] and its duration [s], tensions along the rope [N], and the sheave's limit switch."""
+    y[b], y[b + 1] = slack_segments(n, p, w) * p[ELEMENT], record[SLACK_TIME]
+    y[b + 2], y[b + 3] = least_tension(n, w), largest_tension(n, w)
+    y[b + 4] = max(record[PEAK], y[b + 3])
+    y[b + 5], y[b + 6] = record[TRIPPED], record[TRIP_TIME]

@@ -2,12 +2,17 @@
 
     residual = stored energy - its value at the start - work of ends and effects + losses
 
-vanishes for an exact integration. Works are summed by the trapezoidal rule over the accepted steps.
+vanishes for an exact integration. Works are summed by the trapezoidal rule over the accepted steps, and with the forces at the
+end of steps with slack rope, which take those. What segments lose in such a step is counted with the axial damping: catching
+slack rope starts waves that are shorter than the step, which is to the balance as if they had died at once.
 """
 
+from math import sqrt
+
 from ...kernels.jit import kernel
-from ..runtime.array_layout import BEND_RATE, CURVATURE, ELASTIC, FRICTION_LOSS, INVERSE, NORMAL_LOSS, TX, TY
+from ..runtime.array_layout import BEND_RATE, CURVATURE, ELASTIC, FRICTION_LOSS, INVERSE, NORMAL_LOSS, SHARE, TENSION, TX, TY
 from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
+from .axial_law import elastic_energy, slack_balance
 
 STORED = ("kinetic", "gravity", "tension", "bending", "contact", "sheave")
 SPENT = ("axial_damping", "bending_damping", "external_damping", "contact_damping", "friction")
@@ -35,6 +40,8 @@ def stored_energies(n, p, q, v, w, contact, E):
     E[KINETIC] = 0.5 * p[RHO] * l * kinetic
     E[GRAVITY] = -p[RHO] * l * p[G] * low - p[M] * p[G] * q[n]
     E[STRAIN] = 0.5 * p[EA] / l * strain
+    if w[SHARE * m + n] > 0.0:
+        E[STRAIN] += slack_balance(n, p, v, w)[0]
     E[BENT] = 0.5 * p[EI] * l * bent
     E[CONTACT_ENERGY] = contact[ELASTIC]
     E[SHEAVE] = 0.5 * (p[M] * v[n] * v[n] + p[J] * v[m + n] * v[m + n])
@@ -51,6 +58,8 @@ def powers(n, p, v, w, contact, power, effects, P):
         bending += w[BEND_RATE * m + i] * w[BEND_RATE * m + i]
         drag += v[i] * v[i] + v[m + i] * v[m + i]
     P[END_FORCES] = p[CA] / l * axial
+    if w[SHARE * m + n] > 0.0:
+        P[END_FORCES] += slack_balance(n, p, v, w)[1]
     P[END_FORCES + 1] = p[CB] * l * bending
     P[END_FORCES + 2] = p[CE] * l * drag
     P[END_FORCES + 3] = contact[NORMAL_LOSS]
@@ -80,18 +89,35 @@ def begin_balance(rope, state, work):
 
 
 @kernel
-def update_balance(rope, h, state, motion, work):
-    """Bring the energy balance up to date with a step of length h that goes from `state` to `motion`."""
+def slack_loss(n, p, q0, q, w):
+    """What segments lose over a step that takes the forces at its end, from q0 to q: T dL less the energy they gain [J]."""
+    m, l, lost = n + 1, p[ELEMENT], 0.0
+    for e in range(n - 1):
+        dx, dy = q0[e + 1] - q0[e], q0[m + e + 1] - q0[m + e]
+        before, now = sqrt(dx * dx + dy * dy), 1.0 / w[INVERSE * m + e]
+        gained = elastic_energy(p, p[EA] * (now - l) / l) - elastic_energy(p, p[EA] * (before - l) / l)
+        lost += w[TENSION * m + e] * (now - before) - l * gained
+    return lost
+
+
+@kernel
+def update_balance(rope, step, state, motion, work):
+    """Bring the energy balance up to date with a time step that goes from `state` to `motion`."""
     n, p, effects, P0, P, E = rope.n, rope.p, rope.effects, state.powers, work.powers, state.energy
-    m, q0, q = n + 1, state.q, motion.q
+    m, h, q0, q = n + 1, step.h, state.q, motion.q
     stored_energies(n, p, q, motion.v, work.w, work.contact, E)
     powers(n, p, motion.v, work.w, work.contact, work.power, effects, P)
     hold_forces(n, p, motion.a, work.f, P)
+    if step.slack:  # its forces are those at its end
+        for k in range(END_FORCES + 5 + effects):
+            P0[k] = P[k]
     moved = 0.5 * (P0[0] + P[0]) * (q[0] - q0[0]) + 0.5 * (P0[1] + P[1]) * (q[m] - q0[m])
     moved += 0.5 * (P0[2] + P[2]) * (q[n - 1] - q0[n - 1])
     moved += 0.5 * (P0[3] + P[3]) * (q[m + n - 1] - q0[m + n - 1])
     E[ENDS_WORK] += moved
     for k in range(5 + effects):
         E[LOSSES + k] += 0.5 * h * (P0[END_FORCES + k] + P[END_FORCES + k])
+    if step.slack:
+        E[LOSSES] += slack_loss(n, p, q0, q, work.w) - h * P[END_FORCES]
     for k in range(END_FORCES + 5 + effects):
         P0[k] = P[k]

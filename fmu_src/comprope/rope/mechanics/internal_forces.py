@@ -1,8 +1,8 @@
 """Tension, bending, damping and gravity of eq. (1): forces on the nodes.
 
 The rope is a polygon of elements of natural length l. Segment e has tangent t and normal
-n = (-t_y, t_x); its tension is T = EA (L/l - 1) + c_A rate and its shear Q = (M_e - M_e+1) / L,
-where M = EI kappa + c_B dkappa/dt and kappa is the angle between neighbouring segments over l.
+n = (-t_y, t_x); its tension is T = EA (L/l - 1) + c_A rate, less where that would push (see `axial_law`), and its
+shear Q = (M_e - M_e+1) / L, where M = EI kappa + c_B dkappa/dt and kappa is the angle between neighbouring segments over l.
 Node i then feels the difference of F = T t + Q n over its two segments (T and B of the paper, with
 their damping), gravity, and an external damping proportional to velocity (D).
 
@@ -15,8 +15,9 @@ continuous rope up to fourth order; the contact is placed to match (see `sheave_
 from math import sqrt
 
 from ...kernels.jit import kernel
-from ..runtime.array_layout import BEND_RATE, CURVATURE, FX, FY, INVERSE, MOMENT, SHEAR, SPIN, STIFF, TENSION, TX, TY
+from ..runtime.array_layout import BEND_RATE, CURVATURE, FX, FY, INVERSE, MOMENT, SHARE, SHEAR, SPIN, STIFF, TENSION, TX, TY
 from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G
+from .axial_law import relieve_compression
 
 
 @kernel
@@ -28,8 +29,8 @@ def angle(sine):
 
 @kernel
 def stretch(n, p, q, v, w):
-    """Tangent, tension and spin of each segment; T = EA strain + c_A strain rate."""
-    m, l = n + 1, p[ELEMENT]
+    """Tangent, tension and spin of each segment; T = EA strain + c_A strain rate, less in compression."""
+    m, l, loose = n + 1, p[ELEMENT], 0
     for e in range(n - 1):
         dx, dy = q[e + 1] - q[e], q[m + e + 1] - q[m + e]
         vx, vy = v[e + 1] - v[e], v[m + e + 1] - v[m + e]
@@ -39,8 +40,14 @@ def stretch(n, p, q, v, w):
         w[TX * m + e] = tx
         w[TY * m + e] = ty
         w[INVERSE * m + e] = inverse
-        w[TENSION * m + e] = (p[EA] * (L - l) + p[CA] * (tx * vx + ty * vy)) / l
+        tension = (p[EA] * (L - l) + p[CA] * (tx * vx + ty * vy)) / l
+        w[TENSION * m + e] = tension
+        w[SHARE * m + e] = 1.0
+        loose += (tension < 0.0) | (l > L)
         w[SPIN * m + e] = (tx * vy - ty * vx) * inverse
+    w[SHARE * m + n] = loose
+    if loose > 0:
+        relieve_compression(n, p, w)
 
 
 @kernel

@@ -21,6 +21,7 @@ from ..runtime.array_layout import (
     GYX,
     GYY,
     INVERSE,
+    SHARE,
     SHEAR,
     STIFF,
     SXX,
@@ -39,9 +40,10 @@ from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO
 def segment_blocks(n, p, w, ck, cc):
     """Stiffness of each segment: k_a t t' + T/L n n' - Q/L (n t' + t n'), weighted by ck and cc."""
     m = n + 1
-    along = (ck * p[EA] + cc * p[CA]) / p[ELEMENT]
+    rod = (ck * p[EA] + cc * p[CA]) / p[ELEMENT]
     for e in range(n - 1):
         tx, ty, inverse = w[TX * m + e], w[TY * m + e], w[INVERSE * m + e]
+        along = rod * w[SHARE * m + e]
         across, twist = ck * w[TENSION * m + e] * inverse, -ck * w[SHEAR * m + e] * inverse
         w[SXX * m + e] = along * tx * tx + across * ty * ty - 2.0 * twist * tx * ty
         w[SXY * m + e] = (along - across) * tx * ty + twist * (tx * tx - ty * ty)

@@ -12,7 +12,9 @@ TX, TY, INVERSE, TENSION, SPIN, SHEAR, FX, FY = range(8)
 CURVATURE, MOMENT, STIFF, BEND_RATE = range(8, 12)
 # Segment blocks of the tangent, the gradient of the segment's angle, and the node's stiffness against bending.
 SXX, SXY, SYY, WX, WY, BENDING = range(12, 18)
-SECTIONS = 18
+# Segment: share of a rod's stiffness (see `axial_law`); the sheave's column counts the segments that are pushed or shortened.
+SHARE = 18
+SECTIONS = 19
 
 # Symmetric block band of the tangent: node with itself, with the next node, with the one after.
 DXX, DXY, DYY, EXX, EXY, EYX, EYY, GXX, GXY, GYX, GYY = range(11)

@@ -33,6 +33,7 @@ class State(NamedTuple):
     powers: Array  # last powers of the energy balance [W] and forces that hold the ends [N]
     energy: Array  # energy balance [J]
     start: Array  # stored energy at the start [J], one number
+    record: Array  # what the run has seen so far, see `run_record`
     counters: Array  # steps, Newton iterations, factorisations, halvings, worst unknown
     time: Array  # one number [s]
 
@@ -145,6 +146,7 @@ class TimeStep(NamedTuple):
     h: float
     dt: float
     s: float
+    slack: bool  # whether it takes the rule for slack rope, see `newmark`
 
 
 class Weights(NamedTuple):

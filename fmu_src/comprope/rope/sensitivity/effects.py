@@ -9,6 +9,7 @@ the difference keeps its figures however small it is.
 from typing import NamedTuple
 
 from ...kernels.jit import kernel
+from ..mechanics.axial_law import axial_force
 from ..mechanics.effect_hooks import all_forces, all_moments
 from ..mechanics.internal_forces import bend
 from ..runtime.array_layout import FX, INVERSE, MOMENT, SPIN, TENSION, TX, TY
@@ -86,7 +87,7 @@ def stretch_by_moves(n, p, l0, w0, e0, moves, v, w):
         w[TX * m + e] = cx
         w[TY * m + e] = cy
         w[INVERSE * m + e] = shorter
-        w[TENSION * m + e] = (p[EA] * (e0[e] + along - longer) + p[CA] * (cx * vx + cy * vy)) * per_l
+        w[TENSION * m + e] = axial_force(p, (p[EA] * (e0[e] + along - longer) + p[CA] * (cx * vx + cy * vy)) * per_l)[0]
         w[SPIN * m + e] = (cx * vy - cy * vx) * shorter
 
 

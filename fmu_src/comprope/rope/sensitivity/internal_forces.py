@@ -9,8 +9,9 @@ along the rope; `sheave_contact` does the same for the contact. How a block of d
 from typing import NamedTuple
 
 from ...kernels.jit import kernel
-from ..runtime.array_layout import BEND_RATE, CURVATURE, INVERSE, SHEAR, SPIN, TENSION, TX, TY
-from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
+from ..mechanics.axial_law import force_by_ratio
+from ..runtime.array_layout import BEND_RATE, CURVATURE, INVERSE, SHARE, SHEAR, SPIN, TENSION, TX, TY
+from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RATIO, RHO, G, J, M
 from ..runtime.simd import LANES, load, store
 
 
@@ -24,12 +25,19 @@ class Combination(NamedTuple):
 
 @kernel
 def elongations(n, p, v, w, e0):
-    """Set e0 to L - l of each segment, recovered from its tension T = (EA (L - l) + c_A rate) / l, and then to its rate."""
+    """Set e0 to L - l of each segment, recovered from its tension T = (EA (L - l) + c_A rate) / l, and then to its rate.
+
+    Where the rope is pushed, and its force is another, L - l is that of the segment's length.
+    """
     m, l, per_ea = n + 1, p[ELEMENT], 1.0 / p[EA]
     for e in range(n - 1):
         e0[m + e] = w[TX * m + e] * (v[e + 1] - v[e]) + w[TY * m + e] * (v[m + e + 1] - v[m + e])
     for e in range(n - 1):
         e0[e] = (w[TENSION * m + e] * l - p[CA] * e0[m + e]) * per_ea
+    if w[SHARE * m + n] > 0.0:
+        for e in range(n - 1):
+            if w[SHARE * m + e] != 1.0:
+                e0[e] = 1.0 / w[INVERSE * m + e] - l
 
 
 @kernel
@@ -40,7 +48,7 @@ def predicted(entry, h, half, dq, dv, da):
 
 
 @kernel
-def segment_derivative(m, w, e0, e, stiffness, a, b):
+def segment_derivative(p, m, w, e0, e, stiffness, a, b):
     """Changes of a segment's direction [rad], length, tension and spin, from those between its nodes.
 
     With t and n of the segment, and (a, b) the changes of position and velocity between its nodes,
@@ -49,16 +57,23 @@ def segment_derivative(m, w, e0, e, stiffness, a, b):
         dT = (EA (dL - dl) + dEA (L - l) + c_A (t . b + n . a spin) + dc_A rate - T dl) / l,
         dspin = (n . b - dphi rate - spin dL) / L.
 
-    `stiffness` has EA, c_A, dEA and dc_A, all per l, -dl / l, and EA times that.
+    `stiffness` has EA, c_A, dEA and dc_A, all per l, -dl / l, EA times that, and the change of the compression ratio.
+    Where the rope is pushed, T is a function of that of a rod (see `axial_law`).
     """
-    ea, ca, dea, dca, shorter, unloaded = stiffness
+    ea, ca, dea, dca, shorter, unloaded, dratio = stiffness
     ax, ay = a
     bx, by = b
     tx, ty, inverse, spin, rate = w[TX * m + e], w[TY * m + e], w[INVERSE * m + e], w[SPIN * m + e], e0[m + e]
     along, across = tx * ax + ty * ay, tx * ay - ty * ax
     tilt = inverse * across
     tension = ea * along + ca * (tx * bx + ty * by + spin * across) + unloaded
-    tension = tension + e0[e] * dea + rate * dca + w[TENSION * m + e] * shorter
+    share = w[SHARE * m + e]
+    if share == 1.0:
+        tension = tension + e0[e] * dea + rate * dca + w[TENSION * m + e] * shorter
+    else:
+        rod = ea * e0[e] + ca * rate
+        tension = share * (tension + e0[e] * dea + rate * dca + rod * shorter)
+        tension = tension + ((w[TENSION * m + e] - share * rod) / ea) * dea + force_by_ratio(p, rod) * dratio
     return tilt, along, tension, inverse * (tx * by - ty * bx - rate * tilt - spin * along)
 
 
@@ -121,21 +136,21 @@ def rope_derivative(n, p, state, w, directions, block, combination):
     weight, ddrag = weight_derivative(p, dp, d)
     dmass, longer = keep * mass_derivative(p, dp, d), load(dp, d + ELEMENT * LANES)
     dea, dca = per_l * load(dp, d + EA * LANES), per_l * load(dp, d + CA * LANES)
-    axial = (ea, ca, dea, dca, -per_l * longer, -ea * longer)
+    axial = (ea, ca, dea, dca, -per_l * longer, -ea * longer, load(dp, d + RATIO * LANES))
     dei, dcb = load(dp, d + EI * LANES) - ei * longer, load(dp, d + CB * LANES) - cb * longer
     bending = (ei, cb, dei, dcb)
     x, vx = predicted(base, h, half, dq, dv, da)
     y, vy = predicted(base + LANES, h, half, dq, dv, da)
     x1, vx1 = predicted(base + 2 * LANES, h, half, dq, dv, da)
     y1, vy1 = predicted(base + 3 * LANES, h, half, dq, dv, da)
-    tilt, longer, tension, spin = segment_derivative(m, w, e0, 0, axial, (x1 - x, y1 - y), (vx1 - vx, vy1 - vy))
+    tilt, longer, tension, spin = segment_derivative(p, m, w, e0, 0, axial, (x1 - x, y1 - y), (vx1 - vx, vy1 - vy))
     moment, fx, fy = 0.0 * x, 0.0 * x, 0.0 * x
     for e in range(1, n - 1):
         at = base + 2 * LANES * e
         x, y, vx0, vy0, vx, vy = x1, y1, vx, vy, vx1, vy1
         x1, vx1 = predicted(at + 2 * LANES, h, half, dq, dv, da)
         y1, vy1 = predicted(at + 3 * LANES, h, half, dq, dv, da)
-        tilt1, longer1, tension1, spin1 = segment_derivative(m, w, e0, e, axial, (x1 - x, y1 - y), (vx1 - vx, vy1 - vy))
+        tilt1, longer1, tension1, spin1 = segment_derivative(p, m, w, e0, e, axial, (x1 - x, y1 - y), (vx1 - vx, vy1 - vy))
         moment1 = moment_derivative(m, w, e, bending, tilt1 - tilt, spin1 - spin)
         fx1, fy1 = force_derivative(m, w, e - 1, tilt, longer, tension, moment - moment1)
         set_row(new, keep, fx1 - fx + weight - v[e - 1] * ddrag - drag * vx0, a[e - 1], dmass, dc, D, at - 2 * LANES)

@@ -34,6 +34,13 @@ _COUNTS = (
     ("newton_iterations", "Newton iterations since the start"),
     ("halvings", "time steps halved since the start, because they did not converge"),
 )
+_TENSIONS = (
+    ("slack_length", "m", 1.0, "length of rope that is slack: its force is a compression, of which it carries next to none"),
+    ("slack_duration", "s", 1.0, "time since the start during which some of the rope was slack"),
+    ("least_element_tension", "N", 1000.0, "least tension along the rope"),
+    ("largest_element_tension", "N", 1000.0, "largest tension along the rope"),
+    ("peak_element_tension", "N", 1000.0, "largest tension along the rope since the start, at every time step"),
+)
 
 
 _MOTION = (f"{end}_{rate}" for end in ENDS for rate in ("position", "velocity", "acceleration"))
@@ -111,8 +118,15 @@ def _outputs(sensors: int) -> tuple[Variable, ...]:
         seen.append(_output(f"lateral_displacement[{k}]", "real", help, "m", nominal=0.05, display_unit="mm"))
         gap = f"the rope passes sensor {k}; false: its end has passed, and the displacement is that of the end"
         seen.append(_output(f"in_view[{k}]", "boolean", gap))
-    numbers = [_output(name, "real", help, unit, nominal=nominal) for name, unit, nominal, help in _OUTPUTS]
-    return (*seen, *numbers, *(_output(name, "integer", help) for name, help in _COUNTS))
+    numbers, tensions = (
+        [_output(name, "real", help, unit, nominal=nominal) for name, unit, nominal, help in group]
+        for group in (_OUTPUTS, _TENSIONS)
+    )
+    switch = (
+        _output("limit_switch", "boolean", "the sheave's limit switch has tripped, at a travel of sheave.limit_switch"),
+        _output("limit_switch_time", "real", "time at which it tripped; -1 if it has not", "s", nominal=1.0),
+    )
+    return (*seen, *numbers, *(_output(name, "integer", help) for name, help in _COUNTS), *tensions, *switch)
 
 
 def _output(name: str, kind: Kind, help: str, unit: str = "1", **others: Any) -> Variable:

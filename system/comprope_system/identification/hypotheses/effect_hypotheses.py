@@ -80,7 +80,8 @@ class Hypothesis:
 
 def effect_hypotheses(model: RopeModel, frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
     """All variants of all effects that the model may have; `frequencies` [Hz] are those of oscillating effects."""
-    return [one for name in names_of(model) for one in hypotheses_of_effect(REGISTRY[name], frequencies)]
+    asked = [REGISTRY[name] for name in names_of(model) if REGISTRY[name].hypothesis]
+    return [one for effect in asked for one in hypotheses_of_effect(effect, frequencies)]
 
 
 def hypotheses_of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypothesis]:

@@ -1,0 +1,144 @@
+"""A rope that is pushed: its law, its balance, and a sheave that is dropped and caught by it."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from comprope.drive.parameters import Profile
+from comprope.drive.trajectory.s_curve import plan_s_curve
+from comprope.rope.effects import REGISTRY
+from comprope.rope.effects.trial_state import TrialState
+from comprope.rope.mechanics import axial_law
+from comprope.rope.runtime.parameter_vector import EA, RATIO
+from comprope.rope.simulator.rope import CompensationRope
+
+from .random_rope import forces, random_state
+from .rope_tower import TOWER, ride, rope
+from .test_rope_kernels import agrees, differences, free, tangent
+
+LAW = {name: getattr(one, "py_func", one) for name, one in vars(axial_law).items() if callable(one)}
+P = TrialState(REGISTRY["air_drag"], nominal=False).p  # parameters of a rope: EA = 8e6 N
+MOST = 80.0  # N, EA times the strain over which stiffness is lost
+
+
+def law(x: float, ratio: float = 1e-3) -> tuple[float, float]:
+    P[RATIO] = ratio
+    force, slope = LAW["axial_force"](P, x)
+    return force, slope
+
+
+@pytest.mark.parametrize("x", [-1e4, -100.0, -MOST - 1e-3, -MOST + 1e-3, -50.0, -10.0, -1e-3])
+def test_the_law_s_slope_and_energy_belong_to_its_force(x: float) -> None:
+    h = 1e-4 * max(1.0, abs(x) * 0.01)
+    force, slope = law(x)
+    assert slope == pytest.approx((law(x + h)[0] - law(x - h)[0]) / (2.0 * h), rel=1e-5, abs=1e-8)
+    energy = [LAW["elastic_energy"](P, x + side) for side in (h, -h)]
+    assert force / P[EA] == pytest.approx((energy[0] - energy[1]) / (2.0 * h), rel=1e-6)
+    by_ratio = (law(x, 2e-3)[0] - law(x, 1e-3)[0]) / 1e-3
+    assert LAW["force_by_ratio"](P, x) == pytest.approx(by_ratio, rel=1e-6)
+
+
+def test_the_law_leaves_tension_alone_and_takes_compression_away() -> None:
+    assert law(123.4) == (123.4, 1.0)
+    assert law(-1e5)[0] == pytest.approx(-1e-3 * 1e5 - 0.5 * MOST * (1.0 - 1e-3))
+    assert law(-1e5, 1.0) == (-1e5, 1.0)
+    slopes = [law(x)[1] for x in np.linspace(-200.0, 1.0, 500)]
+    assert all(later >= before for before, later in pairwise(slopes))
+
+
+def test_the_tangent_of_a_pushed_rope_is_that_of_its_forces() -> None:
+    """Segments that are pushed far beyond the law's bend, so that differences over 10 nm resolve it."""
+    do = random_state({"rope.axial_damping": 0.0, "rope.bending_damping": 0.0, "rope.compression_ratio": 1e-3})
+    m = do.rope.n + 1
+    do.state.q[:m] *= 0.999
+    do.state.v[:] = 0.0
+    forces(do)
+    inner = free(do.rope.n)[:30]  # of the nodes under the car, away from the groove
+    inner = np.ix_(inner, inner)
+    assert agrees(tangent(do, 1.0, 0.0)[inner], differences(do, do.state.q, 1e-8)[inner], 0.1)
+
+
+def test_a_trip_without_slack_is_that_of_a_rod_to_the_bit() -> None:
+    found = []
+    for ratio in (1.0, 1e-3):
+        moving, trip = rope({"rope.compression_ratio": ratio}), plan_s_curve(Profile(), 20.0, 26.0, 0.0)
+        moving.solve_equilibrium(20.0, 30.0)
+        for _ in range(100):
+            ride(moving, trip, 0.02)
+        found.append(b"".join(one.tobytes() for one in moving.state))
+    assert found[0] == found[1]
+
+
+DROP, LOWERING, MIDDLE = 0.01, 0.02, 25.0  # m, s, m: by how much and how fast both ends go down, and where they are
+
+
+def lowered(time: float) -> tuple[float, float, float]:
+    """Way down [m], speed and acceleration of the ends: from rest to rest, faster than the sheave falls."""
+    s = min(time / LOWERING, 1.0)
+    way = DROP * s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+    rate = 30.0 * DROP * s**2 * (1.0 - s) ** 2 / LOWERING
+    return way, rate, 60.0 * DROP * s * (1.0 - s) * (1.0 - 2.0 * s) / LOWERING**2
+
+
+def caught(changes: dict[str, float]) -> tuple[CompensationRope, list[dict[str, float]]]:
+    """The sheave of the tower when its rope's ends go down, and its outputs every 4 ms for 0.16 s."""
+    one, dt, seen = rope(changes), 0.004, []
+    one.solve_equilibrium(MIDDLE, MIDDLE)
+    for k in range(40):
+        path = np.zeros((4, 6))
+        path[1], path[3] = [-TOWER.sheave.radius, 0, 0] * 2, [TOWER.sheave.radius, 0, 0] * 2
+        for at, time in ((0, k * dt), (3, (k + 1) * dt)):
+            way, rate, gain = lowered(time)
+            path[[0, 2], at : at + 3] = way - MIDDLE, rate, gain
+        one.step(dt, path.ravel())
+        seen.append(one.all_outputs())
+    return one, seen
+
+
+def caught_on_a_spring() -> float:
+    """The largest force [N] on a mass that hangs on a spring without mass or loss which only pulls, both sides of the rope."""
+    mass, spring = TOWER.sheave.mass, 4.0 * TOWER.rope.axial_stiffness / TOWER.rope_length
+    rest = mass * 9.81 / spring
+
+    def force(time: float, fallen: float) -> float:
+        return spring * max(fallen + rest - lowered(time)[0], 0.0)
+
+    found = solve_ivp(
+        lambda t, y: (y[1], 9.81 - force(t, y[0]) / mass), (0.0, 0.16), (0.0, 0.0), max_step=1e-4, rtol=1e-8, atol=1e-10
+    )
+    return max(force(t, y) for t, y in zip(found.t, found.y[0], strict=True))
+
+
+def test_a_dropped_sheave_is_caught_as_by_a_spring_that_only_pulls() -> None:
+    """A light rope that hardly bends, so that neither its mass nor its stiffness on the sheave takes part.
+
+    3 % of force remain: the rule of slack steps is of first order, and the rope that is caught has swung out sideways.
+    """
+    light = {"rope.mass_per_length": 0.05, "rope.bending_stiffness": 0.1, "rope.bending_damping": 1e-3, "contact.stiffness": 1e9}
+    one, seen = caught(light | {"rope.axial_damping": 200.0, "solver.step": 0.001})
+    expected = caught_on_a_spring()
+    assert expected > 3.0 * TOWER.sheave.mass * 9.81
+    assert max(now["slack_length"] for now in seen) > 30.0  # m
+    assert max(now["sheave_force"] for now in seen) == pytest.approx(expected, rel=0.05)
+    # The ends push with the stiffness that is left, and its 40 N.
+    assert min(now["car_end_tension"] for now in seen) > -60.0
+    # Of the 12 J that the sheave falls by.
+    assert abs(one.energy_residual) < 0.6
+
+
+def test_what_the_run_has_seen_of_slack_stays_and_restarts_to_the_bit() -> None:
+    one, seen = caught({})
+    slack = [now["slack_length"] for now in seen]
+    gone = max(k for k, length in enumerate(slack) if length > 0.0)
+    assert gone < len(seen) - 5
+    assert seen[-1]["slack_duration"] == seen[gone + 1]["slack_duration"] > 0.01
+    assert seen[-1]["peak_element_tension"] >= max(now["largest_element_tension"] for now in seen)
+    assert min(now["least_element_tension"] for now in seen) < -40.0
+    kept = one.state.to_bytes()
+    again = rope({})
+    again.state.from_bytes(kept)
+    for other in (one, again):
+        other.step(0.02, np.array(other.workspace.ends.path) if other is one else np.array(one.workspace.ends.path))
+    assert again.state.to_bytes() == one.state.to_bytes()
