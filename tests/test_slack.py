@@ -9,16 +9,16 @@ from scipy.integrate import solve_ivp
 from comprope.drive.parameters import Profile
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.rope.effects import REGISTRY
-from comprope.rope.effects.trial_state import TrialState
-from comprope.rope.mechanics import axial_law
-from comprope.rope.runtime.parameter_vector import EA, RATIO
+from comprope.rope.effects.trial_state import NODES, TrialState
+from comprope.rope.mechanics import axial_law, internal_tangent
+from comprope.rope.runtime.array_layout import INVERSE, SXX, SXY, SYY, TX, TY
+from comprope.rope.runtime.parameter_vector import EA, ELEMENT, RATIO
 from comprope.rope.simulator.rope import CompensationRope
 
-from .random_rope import forces, random_state
 from .rope_tower import TOWER, ride, rope
-from .test_rope_kernels import agrees, differences, free, tangent
 
 LAW = {name: getattr(one, "py_func", one) for name, one in vars(axial_law).items() if callable(one)}
+segment_blocks = getattr(internal_tangent.segment_blocks, "py_func", internal_tangent.segment_blocks)
 P = TrialState(REGISTRY["air_drag"], nominal=False).p  # parameters of a rope: EA = 8e6 N
 MOST = 80.0  # N, EA times the strain over which stiffness is lost
 
@@ -48,16 +48,18 @@ def test_the_law_leaves_tension_alone_and_takes_compression_away() -> None:
     assert all(later >= before for before, later in pairwise(slopes))
 
 
-def test_the_tangent_of_a_pushed_rope_is_that_of_its_forces() -> None:
-    """Segments that are pushed far beyond the law's bend, so that differences over 10 nm resolve it."""
-    do = random_state({"rope.axial_damping": 0.0, "rope.bending_damping": 0.0, "rope.compression_ratio": 1e-3})
-    m = do.rope.n + 1
-    do.state.q[:m] *= 0.999
-    do.state.v[:] = 0.0
-    forces(do)
-    inner = free(do.rope.n)[:30]  # of the nodes under the car, away from the groove
-    inner = np.ix_(inner, inner)
-    assert agrees(tangent(do, 1.0, 0.0)[inner], differences(do, do.state.q, 1e-8)[inner], 0.1)
+def test_the_tangent_along_a_segment_is_the_law_s_slope() -> None:
+    trial = TrialState(REGISTRY["air_drag"], nominal=False)
+    n, w, at = NODES, trial.arguments["w"], trial.arguments
+    trial.p[RATIO], at["v"][:] = 1e-3, 0.0
+    trial.refresh()
+    segment_blocks(n, trial.p, w, 1.0, 0.0)
+    tx, ty, xx, xy, yy, inverse = (w[k * (n + 1) : k * (n + 1) + n - 1] for k in (TX, TY, SXX, SXY, SYY, INVERSE))
+    along = xx * tx * tx + 2.0 * xy * tx * ty + yy * ty * ty
+    l = trial.p[ELEMENT]
+    slopes = [law(trial.p[EA] * (1.0 / one / l - 1.0))[1] for one in inverse]
+    assert 10 < slopes.count(1.0) < n - 10
+    assert along == pytest.approx(trial.p[EA] / l * np.array(slopes), rel=1e-6)
 
 
 def test_a_trip_without_slack_is_that_of_a_rod_to_the_bit() -> None:
