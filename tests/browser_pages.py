@@ -18,8 +18,11 @@ needs_chromium = pytest.mark.skipif(BROWSER is None and not os.environ.get("CI")
 
 
 @contextmanager
-def opened(address: str, width: int = 1400, **options: Any) -> Iterator[Page]:
-    """A page; when it is left, it must have written nothing to the console, raised nothing, and asked no other machine."""
+def opened(address: str, width: int = 1400, refusals: int = 0, **options: Any) -> Iterator[Page]:
+    """A page; when it is left, it must have written nothing to the console, raised nothing, and asked no other machine.
+
+    `refusals` is the number of requests that its server must have refused, of which browsers write a line each.
+    """
     wrong: list[str] = []
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
@@ -33,7 +36,8 @@ def opened(address: str, width: int = 1400, **options: Any) -> Iterator[Page]:
             yield page
         finally:
             browser.close()
-    assert wrong == []
+    refused = [one for one in wrong if "status of 422" in one]
+    assert len(refused) == refusals and wrong == refused
 
 
 def _elsewhere(address: str) -> list[str]:

@@ -3,7 +3,7 @@ import { ask, find, make, showPage, tell } from "./elements.js";
 
 const LEFT_OUT = "left out", DELAY = 250; // ms after a correction until the files are read again
 const stated = { columns: {}, roles: {}, changes: {}, car: "", model: "" };
-let state = null, found = null, waiting = null, reads = 0, known = "";
+let state = null, found = null, waiting = null, reads = 0, known = "", uploading = false;
 
 export function showData(now) {
   state = now;
@@ -13,14 +13,16 @@ export function showData(now) {
   if (now.exists) return;
   const list = find("#uploads"), names = now.uploads.map((one) => one.name).join("|");
   if (!find("#model").options.length) models(now.presets);
-  if (names === known) return;
+  if (names === known || uploading) return;
   known = names;
   list.replaceChildren();
   for (const { name, size } of now.uploads) {
     const item = make(list, "li", {}, `${name} (${Math.ceil(size / 1000)} kB)`);
     make(item, "button", { type: "button", "aria-label": `remove ${name}` }, "×").addEventListener("click", () => ask("DELETE", `/files/${encodeURIComponent(name)}`));
   }
-  find("#model-told").textContent = now.uploads.some((one) => one.name.endsWith(".toml")) ? "the model file among the files is taken" : "";
+  const own = now.uploads.find((one) => one.name.endsWith(".toml"));
+  find("#model").hidden = Boolean(own);
+  find("#model-told").textContent = own ? own.name : "a preset; or drop a model file";
   if (now.uploads.length) describe(); else find("#guess").hidden = true;
 }
 
@@ -31,17 +33,18 @@ function models(presets) {
 
 // -- files ------------------------------------------------------------------------------------------
 async function upload(files) {
-  for (const file of files) {
-    find("#busy").textContent = `reading ${file.name}`;
-    if (!(await ask("PUT", `/files/${encodeURIComponent(file.name)}`, file))) return;
-  }
+  uploading = true;
+  for (const file of files) if (!(await ask("PUT", `/files/${encodeURIComponent(file.name)}`, file))) break;
+  uploading = false;
+  const now = await ask("GET", "/state");
+  if (now) showData(now);
 }
 
 const drop = find("#drop");
 for (const name of ["dragenter", "dragover"]) drop.addEventListener(name, (event) => { event.preventDefault(); drop.classList.add("over"); });
 for (const name of ["dragleave", "drop"]) drop.addEventListener(name, () => drop.classList.remove("over"));
-drop.addEventListener("drop", (event) => { event.preventDefault(); upload(event.dataTransfer.files); });
-find("#files").addEventListener("change", async (event) => { await upload(event.target.files); event.target.value = ""; });
+drop.addEventListener("drop", (event) => { event.preventDefault(); upload([...event.dataTransfer.files]); });
+find("#files").addEventListener("change", (event) => { upload([...event.target.files]); event.target.value = ""; });
 
 // -- description ------------------------------------------------------------------------------------
 function later() { clearTimeout(waiting); waiting = setTimeout(describe, DELAY); }

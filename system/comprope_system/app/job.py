@@ -2,12 +2,14 @@
 
 import multiprocessing
 import shutil
+import signal
 import threading
 import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 from comprope.errors import CompropeError
@@ -17,6 +19,7 @@ from .computations import COMPUTATIONS
 from .remembering_executor import RememberingExecutor
 
 RUNNING, DONE, FAILED, CANCELLED = "running", "done", "failed", "cancelled"
+GRACE = 10.0  # s that a process is given to end its workers
 # Replays that a computation usually takes, for each fit run: from campaigns of docs/app.md. For the estimate of the time left.
 USUAL_TASKS = {"diagnose": 75, "add": 60, "improve": 150}
 
@@ -48,10 +51,13 @@ class Job:
         self.stop()
 
     def stop(self) -> None:
-        """End the process as when the server ends."""
-        with suppress(OSError):
-            self._alive.close()
-        self._process.join(timeout=10)
+        """End the process and those that it started."""
+        self._process.terminate()
+        self._process.join(timeout=GRACE)
+        if self._process.is_alive():
+            self._process.kill()
+            self._process.join()
+        self._alive.close()
 
     def status(self) -> dict[str, Any]:
         """What the page shows."""
@@ -92,6 +98,7 @@ def run_job(
 ) -> None:
     """Compute in this process and its own workers, and send what happens; the last message is that of the end."""
     end_with_parent(alive)
+    signal.signal(signal.SIGTERM, _leave)
     lock = threading.Lock()
 
     def send(*news: Any) -> None:
@@ -109,3 +116,8 @@ def run_job(
         send(FAILED, str(error))
     except Exception as error:  # whatever it is, the page shows a sentence
         send(FAILED, f"internal error: {type(error).__name__}: {' '.join(str(error).split())}")
+
+
+def _leave(_number: int, _frame: FrameType | None) -> None:
+    """End in an orderly way, so that the processes of the pool end first."""
+    raise SystemExit(1)

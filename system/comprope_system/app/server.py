@@ -24,12 +24,14 @@ TOKEN_BYTES = 24
 PATIENCE = 1  # s that open connections are given at the end
 
 
-def make_app(campaign: Path, token: str, port: int) -> Starlette:
-    """The app for one campaign folder, which need not exist."""
+def make_app(campaign: Path, token: str, port: int, *, warm: bool = False) -> Starlette:
+    """The app for one campaign folder, which need not exist; a `warm` one loads what it will need at once."""
     state, desk = State(campaign), Desk()
 
     @asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
+        if warm:
+            desk.warm()
         try:
             yield
         finally:
@@ -49,7 +51,7 @@ def serve(campaign: Path, port: int = 0, *, browser: bool = True) -> None:
             raise InputError(f"--port {port}: {error.strerror}; another number is accepted, or 0 for any free one") from None
         port, token = listening.getsockname()[1], secrets.token_urlsafe(TOKEN_BYTES)
         address = f"http://{LOOPBACK}:{port}/?token={token}"
-        app = make_app(campaign, token, port)
+        app = make_app(campaign, token, port, warm=True)
         sys.stdout.write(f"{address}\n")
         sys.stdout.flush()
         if browser:

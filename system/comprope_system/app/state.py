@@ -26,12 +26,13 @@ class State:
         self.workspace = Workspace(campaign)
         self.job: Job | None = None
         self.version = 0
+        self._closing = False
         self._mark = self.workspace.root / "job.json"
 
     def changed(self) -> None:
         """There is something new to show."""
         self.version += 1
-        if self.job and self.job.state != RUNNING:
+        if self.job and self.job.state != RUNNING and not self._closing:
             self._mark.unlink(missing_ok=True)
 
     def start(self, name: str, arguments: dict[str, Any]) -> None:
@@ -54,6 +55,7 @@ class State:
 
     def close(self) -> None:
         """End the job's process with the server; a later one offers to resume it."""
+        self._closing = True
         if self.job and self.job.state == RUNNING:
             self.job.stop()
 
