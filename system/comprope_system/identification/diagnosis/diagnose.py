@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..data.campaign import Campaign
-from ..estimation.gauss_newton import FitResult, evaluate, fit_on_full_mesh
-from ..estimation.mass_search import fit_with_mass_search
+from ..estimation.coarse_to_fine import fit_from_file
+from ..estimation.gauss_newton import FitResult
 from ..estimation.model_score import log_score
 from ..estimation.weighted_least_squares import LeastSquaresProblem, build_problem
 from ..hypotheses.effect_hypotheses import Hypothesis
@@ -87,7 +87,7 @@ def diagnose(
 ) -> Diagnosis:
     """Rank all effects as explanations of the fit runs of a campaign, except those in `without`.
 
-    `base` has the effects that are in the model already.
+    `base` has the effects that are in the model already, and plant coefficients to begin with.
     """
     origin = base or ParameterPoint()
     runs = campaign.of_role("fit")
@@ -95,11 +95,8 @@ def diagnose(
     nominal = collect_predictions(runs, submit_replays(campaign, runs, origin, executor))
     problem = replace(build_problem(campaign, runs, executor, nominal), ruled_out=frozenset(without))
     report_progress("plant parameters")
-    rough = problem.coarsened(origin, nominal)
-    on_coarse_mesh = evaluate(rough, None, np.zeros(len(PLANT_PARAMETERS)), origin)
-    baseline = fit_with_mass_search(rough, on_coarse_mesh, origin)
-    if rough.coarse != problem.coarse:
-        baseline = fit_on_full_mesh(problem, baseline, origin, thorough=False)
+    start = np.array([origin.plant.get(one.name, 0.0) for one in PLANT_PARAMETERS])
+    rough, on_coarse_mesh, baseline = fit_from_file(problem, None, start, origin, nominal)
     initial_fit = replace(on_coarse_mesh, predictions=nominal)
     context = FitContext(problem, problem.coarsened(baseline.point, baseline.predictions), origin, baseline, report_progress)
     report_progress("linear screening of all effects")

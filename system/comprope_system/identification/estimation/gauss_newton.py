@@ -75,7 +75,7 @@ def gauss_newton(
     updated, never computed anew. Raises `SimulationError` if the model
     cannot be simulated at `start`.
     """
-    directions, count, fresh = problem.directions(hypothesis), len(problem.data), True
+    directions, count, fresh = problem.directions(hypothesis), len(problem.data), renew
     best = initial_fit or evaluate(problem, hypothesis, np.asarray(start, float), base)
     for iteration in range(GAUSS_NEWTON.max_iterations):
         # With a large residual the priors are weighed by its mean square: else an implausible plant would imitate the effect.
@@ -86,9 +86,11 @@ def gauss_newton(
         if solution.chi_square > abandon_above * (1.0 if trusted else GAUSS_NEWTON.hopeless_factor):
             break
         before = best.cost(scale)
-        enough, predicted = GAUSS_NEWTON.min_decrease * scale * count, before - solution.cost
+        enough, predicted = _least_decrease(scale) * scale * count, before - solution.cost
         if predicted >= enough:
-            best = _line_search(problem, best, solution, base, scale)
+            # Where updated derivatives lead nowhere, shorter steps along them lead nowhere either.
+            shares = GAUSS_NEWTON.step_fractions if fresh else GAUSS_NEWTON.step_fractions[:2]
+            best = _line_search(problem, best, solution, base, scale, shares)
         gain = before - best.cost(scale)
         if (fresh or not renew) and gain < enough:
             break
@@ -99,6 +101,11 @@ def gauss_newton(
             except SimulationError:  # derivatives diverge where the motion itself does not
                 break
     return best
+
+
+def _least_decrease(scale: float) -> float:
+    """Decrease of the cost per datum and mean square of the residual `scale` below which the iteration ends."""
+    return GAUSS_NEWTON.far_decrease if scale > GAUSS_NEWTON.far_from_data else GAUSS_NEWTON.min_decrease
 
 
 def fit_on_full_mesh(
@@ -147,33 +154,34 @@ def _with_linear_prediction(problem: LeastSquaresProblem, fitted: FitResult, sol
 
 
 def _line_search(
-    problem: LeastSquaresProblem, best: FitResult, solution: Solution, base: ParameterPoint, scale: float
+    problem: LeastSquaresProblem,
+    best: FitResult,
+    solution: Solution,
+    base: ParameterPoint,
+    scale: float,
+    shares: Sequence[float],
 ) -> FitResult:
-    """The full step to the linear solution, or the best of some shorter ones if that does not decrease the cost."""
+    """The longest of some shares of the step to the linear solution that decreases the cost; `best` if none does."""
     step = solution.coefficients - best.coefficients
-    for shares in ((1.0,), GAUSS_NEWTON.step_fractions):
-        tried = _broyden_steps(problem, best, [share * step for share in shares], base)
-        found = min(tried, key=lambda one: one.cost(scale), default=best)
-        if found.cost(scale) < best.cost(scale):
+    for share in shares:
+        found = _broyden_step(problem, best, share * step, base)
+        if found and found.cost(scale) < best.cost(scale):
             return replace(found, covariance=solution.covariance)
     return best
 
 
-def _broyden_steps(
-    problem: LeastSquaresProblem, best: FitResult, steps: Sequence[Floats], base: ParameterPoint
-) -> list[FitResult]:
-    """Results after each of some steps (k,), with updated derivatives; those that cannot be simulated are left out.
+def _broyden_step(
+    problem: LeastSquaresProblem, best: FitResult, step: Floats, base: ParameterPoint
+) -> FitResult | None:
+    """Result after a step (k,), with updated derivatives; None where it cannot be simulated.
 
     With the step s and W = diag(prior^-2), J+ = J + (y+ - y - J s) (W s)' / (s' W s).
     """
-    found, y = [], problem.whitened(best.predictions)
-    priors = np.array([one.prior for one in problem.directions(best.hypothesis)])
-    reached = [best.coefficients + step for step in steps]
-    predicted = problem.attempts(*(point_at(best.hypothesis, list(x), base) for x in reached))
-    for x, step, predictions in zip(reached, steps, predicted, strict=True):
-        if predictions is not None:
-            along = step / priors**2
-            error = problem.whitened(predictions) - y - best.jacobian @ step
-            jacobian = best.jacobian + np.outer(error, along / float(along @ step))
-            found.append(_fit_result(problem, best.hypothesis, x, base, predictions, jacobian))
-    return found
+    x = best.coefficients + step
+    (predictions,) = problem.attempts(point_at(best.hypothesis, list(x), base))
+    if predictions is None:
+        return None
+    along = step / np.array([one.prior for one in problem.directions(best.hypothesis)]) ** 2
+    error = problem.whitened(predictions) - problem.whitened(best.predictions) - best.jacobian @ step
+    jacobian = best.jacobian + np.outer(error, along / float(along @ step))
+    return _fit_result(problem, best.hypothesis, x, base, predictions, jacobian)

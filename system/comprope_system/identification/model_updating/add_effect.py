@@ -13,11 +13,12 @@ from ...report.json_output import plain
 from ..comparison.compare import Comparison, compare
 from ..data.campaign import Campaign
 from ..diagnosis.linear_screening import promising_frequencies, screen_about_fits
+from ..estimation.coarse_to_fine import fit_coarse_to_fine, fit_from_file, with_derivatives
 from ..estimation.effect_responses import effect_responses
-from ..estimation.gauss_newton import FitResult, evaluate, gauss_newton
+from ..estimation.gauss_newton import FitResult
 from ..estimation.initial_guess import best_initial_guess
 from ..estimation.linearisation import instrument_jacobian, point_at
-from ..estimation.mass_search import fit_with_mass_search, search_rope_mass
+from ..estimation.mass_search import search_rope_mass
 from ..estimation.parameter_estimates import (
     Estimate,
     effect_estimates,
@@ -67,8 +68,8 @@ def fit_baseline(campaign: Campaign, executor: Executor, report_progress: Progre
     report_progress("fitting the plant parameters")
     hypothesis, coefficients = effects_in_model(campaign)
     start = np.concatenate([np.zeros(len(PLANT_PARAMETERS)), coefficients])
-    initial_fit = evaluate(problem, hypothesis, start, ParameterPoint())
-    return BaselineFit(campaign, problem, initial_fit, fit_with_mass_search(problem, initial_fit, ParameterPoint()))
+    _, initial, fitted = fit_from_file(problem, hypothesis, start, ParameterPoint(), nominal)
+    return BaselineFit(campaign, problem, replace(initial, predictions=nominal), fitted)
 
 
 @dataclass(frozen=True)
@@ -153,10 +154,13 @@ def _best_start(baseline: BaselineFit, tried: list[Hypothesis]) -> tuple[Hypothe
     return best.hypothesis, np.concatenate([best.start[:plant], new, there])
 
 
-def fit_with_effect(baseline: BaselineFit, new: Hypothesis, start: Floats, known: FitResult) -> FitResult:
+def fit_with_effect(
+    baseline: BaselineFit, new: Hypothesis, start: Floats, known: FitResult, expected: float = 0.0
+) -> FitResult:
     """Fit a new effect with the plant parameters and the effects of `known`; `start`: plant, new, and perhaps known ones.
 
-    Parameters that change the shape of the effect's response are then freed as well: a frequency, a yield curvature.
+    No other start is tried where the chi-square there is near the `expected` one. Parameters that change the shape of the
+    effect's response are then freed as well: a frequency, a yield curvature.
     """
     old = [part for part, _ in known.hypothesis.split_coefficients(known.effect_coefficients)] if known.hypothesis else []
     count = len(PLANT_PARAMETERS) + len(new.directions)
@@ -164,8 +168,9 @@ def fit_with_effect(baseline: BaselineFit, new: Hypothesis, start: Floats, known
     begin = np.array(begin)
     begin[[k for k, one in enumerate(PLANT_PARAMETERS) if one.name in baseline.problem.held]] = 0.0
     whole = combine(new, *old)
-    begin = best_initial_guess(baseline.problem, whole, begin, ParameterPoint(), baseline.fitted, len(new.directions))
-    fitted = search_rope_mass(baseline.problem, gauss_newton(baseline.problem, whole, begin, ParameterPoint()), ParameterPoint())
+    rough, base = baseline.problem.coarsened(known.point, known.predictions), ParameterPoint()
+    begin = best_initial_guess(rough, whole, begin, base, baseline.fitted, len(new.directions), expected)
+    fitted = search_rope_mass(baseline.problem, fit_coarse_to_fine(baseline.problem, whole, begin, base), base)
     return _shaped(baseline, new, old, fitted)
 
 
@@ -174,7 +179,7 @@ def _shaped(baseline: BaselineFit, new: Hypothesis, old: list[Hypothesis], fitte
     if not shapes:
         return fitted
     begin = np.concatenate([fitted.coefficients, np.zeros(len(shapes))])
-    freed = gauss_newton(baseline.problem, combine(new, *old, *shapes), begin, ParameterPoint())
+    freed = fit_coarse_to_fine(baseline.problem, combine(new, *old, *shapes), begin, ParameterPoint())
     return freed if freed.cost() < fitted.cost() else fitted
 
 
@@ -182,7 +187,8 @@ def updated_model(
     baseline: BaselineFit, effect: str, fitted: FitResult, executor: Executor, already_present: bool = False
 ) -> UpdatedModel:
     """The model of a fit, compared with all runs."""
-    campaign, scale = baseline.campaign, standard_error_scale(fitted, len(baseline.problem.data))
+    campaign, fitted = baseline.campaign, with_derivatives(baseline.problem, fitted, ParameterPoint())
+    scale = standard_error_scale(fitted, len(baseline.problem.data))
     model = fitted_model(campaign, fitted)
     return UpdatedModel(
         effect, already_present, baseline, fitted, model,

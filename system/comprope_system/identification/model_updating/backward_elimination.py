@@ -5,8 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..estimation.gauss_newton import FitResult, gauss_newton
+from ..estimation.coarse_to_fine import fit_coarse_to_fine
+from ..estimation.gauss_newton import FitResult
 from ..estimation.model_score import log_score
+from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.model_effects import combined_or_none, components_by_effect
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
@@ -52,9 +54,14 @@ def _remove(baseline: BaselineFit, fitted: FitResult, name: str, report_progress
     kept = [pair for effect, pairs in groups.items() if effect != name for pair in pairs]
     left = combined_or_none([part for part, _ in kept])
     start = np.concatenate([fitted.coefficients[: len(PLANT_PARAMETERS)], [c for _, own in kept for c in own]])
-    found = gauss_newton(baseline.problem, left, start, ParameterPoint())
+    # Without any effect it is the fit that the selection has begun with.
+    found = baseline.fitted if left is baseline.fitted.hypothesis else _refitted(baseline, left, start)
     reduced = found.chi_square / max(len(baseline.problem.data), 1)
     return EffectRemoval(name, found, reduced, _score(baseline, found) >= _score(baseline, fitted))
+
+
+def _refitted(baseline: BaselineFit, left: Hypothesis | None, start: Floats) -> FitResult:
+    return fit_coarse_to_fine(baseline.problem, left, start, ParameterPoint())
 
 
 def _score(baseline: BaselineFit, fitted: FitResult) -> float:

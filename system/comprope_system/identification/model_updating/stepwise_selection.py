@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -107,7 +107,7 @@ def select_stepwise(
     steps.append(_step(baseline, "plant refitted", fitted, executor))
     found: list[Diagnosis] = []
     while True:
-        found.append(diagnose(campaign, executor, report_progress, replace(fitted.point, plant={})))
+        found.append(diagnose(campaign, executor, report_progress, fitted.point))
         if found[-1].verdict is None or len(steps) > max_effects + 1:
             break
         for name, step in _add_each(baseline, found[-1], fitted, report_progress):
@@ -134,5 +134,5 @@ def _add_each(
     for name, parts in components_by_effect(best.hypothesis, best.effect_coefficients).items():
         report_progress(f"fitting {name} with all other effects")
         start = np.concatenate([plant, *(own for _, own in parts)])
-        fitted = fit_with_effect(baseline, combine(*(part for part, _ in parts)), start, fitted)
+        fitted = fit_with_effect(baseline, combine(*(part for part, _ in parts)), start, fitted, expected=best.chi_square)
         yield name, fitted

@@ -33,7 +33,7 @@ def replay(model: RopeModel, run: Run, channels: Mapping[str, Channel], step: fl
     """Simulate a run with its parameters and its trip; channels are relative to rest where the measured ones are."""
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
     rope = CompensationRope(changed)
-    grid = output_times(run)
+    grid = output_times(run, step)
     channels_on_grid = _simulated_channels(rope, run, grid, channels)
     values = {}
     for column in channels:
@@ -79,12 +79,17 @@ def relative_to_rest(values: dict[str, Floats], run: Run, channels: Mapping[str,
     }
 
 
-def output_times(run: Run) -> Floats:
+def output_interval(step: float) -> float:
+    """Time between outputs [s] of a replay with a time step [s]."""
+    return max(REPLAY.output_interval, REPLAY.output_steps * step)
+
+
+def output_times(run: Run, step: float) -> Floats:
     """Times [s] of the outputs of a replay, from the start of the record, or of a run-up before it, to just beyond its end."""
     begin, run_up = run.time[0], max(0.0, run.time[0] - run.trip.rest_before)
-    first = -int(np.ceil(run_up / REPLAY.output_interval))
-    count = int(np.ceil((run.time[-1] - begin) / REPLAY.output_interval)) + 2
-    return np.asarray(begin + REPLAY.output_interval * np.arange(first, count))
+    interval = output_interval(step)
+    first, count = -int(np.ceil(run_up / interval)), int(np.ceil((run.time[-1] - begin) / interval)) + 2
+    return np.asarray(begin + interval * np.arange(first, count))
 
 
 def _simulated_channels(rope: CompensationRope, run: Run, grid: Floats, channels: Mapping[str, Channel]) -> dict[str, Floats]:
@@ -97,9 +102,10 @@ def _simulated_channels(rope: CompensationRope, run: Run, grid: Floats, channels
     paths = interval_paths(motion)
     lateral = {column: sensors[str(one.sensor)] for column, one in channels.items() if one.quantity == "lateral_displacement"}
     others = {column: one.quantity for column, one in channels.items() if column not in lateral}
+    interval = output_interval(rope.model.solver.step)
     for k in range(len(grid)):
         if k:
-            rope.step(REPLAY.output_interval, paths[k - 1])
+            rope.step(interval, paths[k - 1])
         for column, sensor in lateral.items():
             found[column][k] = rope.lateral_displacement(sensor.side, sensor.height)
         if others:

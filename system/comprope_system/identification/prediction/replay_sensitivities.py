@@ -14,7 +14,17 @@ from comprope.rope.simulator.sensitive_rope import SensitiveRope
 
 from ..data.runs import Channel, Run
 from ..settings import REPLAY
-from .replay import Floats, Replay, end_motion, instrument, interval_paths, output_times, relative_to_rest, start_of
+from .replay import (
+    Floats,
+    Replay,
+    end_motion,
+    instrument,
+    interval_paths,
+    output_interval,
+    output_times,
+    relative_to_rest,
+    start_of,
+)
 
 FORCES = ("force", "tension")
 
@@ -39,7 +49,7 @@ def replay_with_sensitivities(
     """
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
     rope = SensitiveRope(changed, directions, at, exact=_has_history(values_of(changed)) if exact is None else exact)
-    grid = output_times(run)
+    grid = output_times(run, step)
     found, hidden = _simulated_channels(rope, run, grid, channels)
     if not all(np.abs(one).max() < REPLAY.derivative_limit for one in found.values()):
         raise SimulationError(f"{run.file}: derivatives along the run diverged")
@@ -82,9 +92,10 @@ def _simulated_channels(
     readings = np.zeros((len(grid), len(rope.rope.model.sensors), 2 + len(rope.names)))
     sensors = {column: _sensor_number(rope, one) for column, one in channels.items() if one.quantity == "lateral_displacement"}
     others = {column: one.quantity for column, one in channels.items() if column not in sensors}
+    interval = output_interval(rope.rope.model.solver.step)
     for k in range(len(grid)):
         if k:
-            rope.step(REPLAY.output_interval, paths[k - 1])
+            rope.step(interval, paths[k - 1])
         if sensors:
             readings[k] = rope.read_sensors()
         if others:

@@ -9,6 +9,7 @@ from ..diagnosis.held_out_validation import ValidatedDiagnosis, full_name, impla
 from ..model_updating.add_effect import UpdatedModel
 from ..model_updating.stepwise_selection import StepwiseSelection
 from ..settings import COMPARISON, VERDICT
+from .detection_limits import detection_sentence
 from .formatting import number, percent, probability
 
 WHEN = {
@@ -53,7 +54,8 @@ def verdict_sentences(validated: ValidatedDiagnosis) -> list[str]:
         return [_missing_effect(validated), *implausible, *excluded]
     if found.kind == "adequate":
         text = "Nothing is missing: with refitted plant parameters the residual is explained by measurement noise"
-        return [f"{text} (probability {probability(found.probabilities['adequate'])}).", *implausible, *excluded]
+        sure = f"{text} (probability {probability(found.probabilities['adequate'])})."
+        return [sure, detection_sentence(found), *implausible, *excluded]
     return [
         "An effect is missing, and none of the known effects explains the residual "
         f"(probability {probability(found.probabilities['unknown'])}).",

@@ -3,15 +3,13 @@
 from collections.abc import Sequence
 from shlex import quote
 
-from comprope.quantities import quantities
-from comprope.rope.effects import REGISTRY
-
 from ...report.card import Card
-from ..diagnosis.diagnose import Candidate, Diagnosis
+from ..diagnosis.diagnose import Diagnosis
 from ..diagnosis.experiment_design import ProposedRun
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, effects_of, full_name, ranking, reduced_chi_square
 from ..estimation.parameter_estimates import Estimate, effect_estimates, standard_error_scale
 from ..settings import VERDICT
+from .detection_limits import undetectable
 from .effect_descriptions import drawing, meaning, parameter_label, parameter_unit
 from .formatting import in_handy_unit, listed_words, percent, probability
 
@@ -33,7 +31,7 @@ def verdict_card(validated: ValidatedDiagnosis, proposals: Sequence[ProposedRun]
         ("error", _error(validated)),
         ("runner-up", _runner_up(validated)),
         ("looks the same", _indistinguishable(found)),
-        ("could not have been seen", _unseen(found, names)),
+        ("could not have been seen", _unseen(found)),
         ("next run to measure", _next_run(found, proposals)),
     ]
     values = _values(found) if found.verdict else []
@@ -115,27 +113,8 @@ def _indistinguishable(found: Diagnosis) -> str:
     return listed_words([_readable(one) for one in others]) or "no other effect, in these runs"
 
 
-def _unseen(found: Diagnosis, names: list[str]) -> str:
-    """Effects whose detection limit is above their typical size: of these nothing is said."""
-    unseen = []
-    for one in found.ranking:
-        if one.hypothesis.parts or one.hypothesis.effect in names or one.hypothesis.effect not in REGISTRY:
-            continue
-        unseen += _limit_above_nominal(one)
-    return "; ".join(unseen) or "effects below their detection limits, all of which are under typical sizes"
-
-
-def _limit_above_nominal(one: Candidate) -> list[str]:
-    """The first detection limit of an effect, as text, if none of its parameters would be seen at its nominal value."""
-    effect = one.hypothesis.effect
-    declared = {quantity.name: quantity for quantity in quantities(REGISTRY[effect])}
-    limits = {key.split(".", 2)[2]: limit for key, limit in one.detection_limits.items()}
-    sizes = {declared[name]: limit for name, limit in limits.items() if name in declared and name != "phase"}
-    if not sizes or any(limit <= abs(quantity.nominal) for quantity, limit in sizes.items()):
-        return []
-    quantity, limit = next(iter(sizes.items()))
-    (size,) = in_handy_unit(quantity.unit, limit)
-    return [f"{_readable(effect)} below {quantity.name.replace('_', ' ')} {size}"]
+def _unseen(found: Diagnosis) -> str:
+    return "; ".join(undetectable(found)) or "effects below their detection limits, all of which are under typical sizes"
 
 
 def _next_run(found: Diagnosis, proposals: Sequence[ProposedRun]) -> str:

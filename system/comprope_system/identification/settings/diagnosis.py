@@ -39,7 +39,7 @@ class Screening:
         "trials with twin effects: drag and dry friction had 0.82",
     )  # fmt: skip
     sizes: tuple[float, ...] = setting(
-        (1.0, 3.0, 10.0), "typical values", "sizes at which effects are screened besides the least", JUDGEMENT
+        (3.0, 10.0), "typical values", "sizes at which effects are screened besides the least", JUDGEMENT
     )
     delays: tuple[float, ...] = setting(
         (-0.2, -0.1, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6), "s", "delays at which instruments are screened",

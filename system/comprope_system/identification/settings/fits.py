@@ -9,7 +9,8 @@ from .declaration import CAMPAIGNS, DERIVED, JUDGEMENT, setting
 class Replay:
     """Simulation of a measured run."""
 
-    output_interval: float = setting(0.01, "s", "time between outputs; channels are cubic splines in between", JUDGEMENT)
+    output_interval: float = setting(0.01, "s", "least time between outputs; channels are cubic splines in between", JUDGEMENT)
+    output_steps: float = setting(2.0, "time steps", "least time between outputs, where time steps are long", JUDGEMENT)
     time_step: float = setting(
         0.005,
         "s",
@@ -80,6 +81,10 @@ class GaussNewton:
     """Iteration of a nonlinear fit."""
 
     min_decrease: float = setting(4e-3, "1", "decrease of the cost per datum below which the iteration ends", JUDGEMENT)
+    far_decrease: float = setting(
+        0.02, "1", "the same while the fit leaves more than `far_from_data`, where its minimum decides nothing yet",
+        "verdicts of the practice campaigns are the same as with 0.004",
+    )  # fmt: skip
     max_iterations: int = setting(40, "1", "most iterations", JUDGEMENT)
     min_gain_ratio: float = setting(
         0.5, "1", "actual over predicted decrease below which derivatives are computed anew instead of updated", JUDGEMENT
@@ -92,9 +97,9 @@ class GaussNewton:
         6.0, "1", "factor by which the prediction must exceed the limit to end a fit earlier", JUDGEMENT
     )
     far_from_data: float = setting(
-        5.0, "1", "reduced chi-square above which the coarse mesh tells little of a fit's minimum on the full one", JUDGEMENT
+        5.0, "1", "reduced chi-square above which a fit is far from its minimum, of which the coarse mesh tells little", JUDGEMENT
     )
-    step_fractions: tuple[float, ...] = setting((0.3, 0.1, 0.03), "1", "shares of a step that are tried if it fails", JUDGEMENT)
+    step_fractions: tuple[float, ...] = setting((1.0, 0.3, 0.1, 0.03), "1", "shares of a step that are tried in turn", JUDGEMENT)
 
 
 @dataclass(frozen=True)

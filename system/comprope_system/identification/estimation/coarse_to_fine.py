@@ -1,0 +1,69 @@
+"""Fits made on a coarse mesh and continued on the full one, at a fraction of the cost of a fit on the full mesh alone."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comprope.errors import SimulationError
+
+from ..hypotheses.effect_hypotheses import Hypothesis
+from ..prediction.parameter_point import ParameterPoint, Predictions
+from .gauss_newton import FitResult, evaluate, fit_on_full_mesh, gauss_newton
+from .linearisation import point_at
+from .mass_search import fit_with_mass_search
+from .weighted_least_squares import LeastSquaresProblem, solve
+
+Floats = NDArray[np.float64]
+
+
+class FitFromFile(NamedTuple):
+    """Fit of the parameters that a model has: the coarse problem, its evaluation at the start, and the fit on the full mesh."""
+
+    rough: LeastSquaresProblem
+    initial: FitResult
+    fitted: FitResult
+
+
+def fit_from_file(
+    problem: LeastSquaresProblem, hypothesis: Hypothesis | None, start: Floats, base: ParameterPoint, nominal: Predictions
+) -> FitFromFile:
+    """Fit from the coefficients `start` (k,), at which the full mesh predicts `nominal`; the rope's mass is searched as well.
+
+    Raises `SimulationError` if the model cannot be simulated there.
+    """
+    rough = problem.coarsened(point_at(hypothesis, list(start), base), nominal)
+    initial = evaluate(rough, hypothesis, start, base)
+    fitted = fit_with_mass_search(rough, initial, base)
+    if rough.coarse != problem.coarse:
+        fitted = fit_on_full_mesh(problem, fitted, base, thorough=False)
+    return FitFromFile(rough, initial, fitted)
+
+
+def fit_coarse_to_fine(
+    problem: LeastSquaresProblem, hypothesis: Hypothesis | None, start: Floats, base: ParameterPoint
+) -> FitResult:
+    """Fit from the coefficients `start` (k,), about which the coarse mesh is corrected.
+
+    Raises `SimulationError` if the model cannot be simulated there.
+    """
+    point = point_at(hypothesis, list(start), base)
+    rough = problem.coarsened(point, problem.predictions(point)[0])
+    fitted = gauss_newton(rough, hypothesis, start, base)
+    return fitted if rough.coarse == problem.coarse else fit_on_full_mesh(problem, fitted, base, thorough=True)
+
+
+def with_derivatives(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:
+    """The fit with derivatives computed at its point on the problem's mesh, for its standard errors.
+
+    Those that a fit has carried along from a coarse mesh may give errors that are wrong by a factor of two. The fit is returned as
+    it is where they cannot be computed.
+    """
+    try:
+        there = evaluate(problem, fitted.hypothesis, fitted.coefficients, base)
+    except SimulationError:  # derivatives diverge where the motion itself does not
+        return fitted
+    directions = problem.directions(fitted.hypothesis)
+    solution = solve(problem.residual(there.predictions), there.jacobian, directions, there.coefficients)
+    return replace(there, covariance=solution.covariance, prior_cost=fitted.prior_cost)
