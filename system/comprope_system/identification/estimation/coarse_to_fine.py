@@ -57,8 +57,8 @@ def fit_coarse_to_fine(
 def with_derivatives(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:
     """The fit with derivatives computed at its point on the problem's mesh, for its standard errors.
 
-    Those that a fit has carried along from a coarse mesh may give errors that are wrong by a factor of two. The fit is returned as
-    it is where they cannot be computed.
+    Those that a fit has carried along from a coarse mesh may give errors that are wrong by a factor of two. Where they cannot be
+    computed the fit is returned as it is.
     """
     try:
         there = evaluate(problem, fitted.hypothesis, fitted.coefficients, base)
