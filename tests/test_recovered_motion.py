@@ -115,6 +115,22 @@ def test_held_samples_of_a_car_under_way_are_no_coarse_steps():
         recover_trip(time, np.round(truth))
 
 
+def test_a_hard_stop_between_held_samples_is_no_failure_of_the_sensor():
+    time = np.arange(0.0, 14.0, 0.004)
+    truth = stopped(time, speed=3.0, stop=10.05, deceleration=15.0)
+    found = recover_trip(time, noisy(truth, 1e-4)[25 * (np.arange(len(time)) // 25)])  # held for 0.1 s
+    assert np.abs(found.position(time) - truth).max() < 5e-3 and not any("left out" in one for one in found.remarks)
+    assert any("between them a hard stop may move the car by 19 mm unseen" in one for one in found.remarks)
+
+
+def test_the_steps_of_a_held_signal_are_not_its_resolution():
+    time = np.arange(0.0, 4.0, 0.004)
+    truth = 1.2 * time + 0.02 * time**2
+    found = recover_trip(time, truth[25 * (np.arange(len(time)) // 25)])  # no two updates less than 0.1 m apart
+    assert np.abs(found.position(time) - truth)[:975].max() < 1e-3
+    assert any("its last 0.1 s are extrapolated, uncertain by some 10 mm" in one for one in found.remarks)
+
+
 @pytest.mark.parametrize(("quantity", "order"), [("speed", 1), ("acceleration", 2)])
 def test_a_speed_or_an_acceleration_needs_one_height(ends, quantity, order):
     time = np.arange(0.0, 16.0, 0.02)

@@ -13,6 +13,7 @@ from .trip import Piece
 Floats = NDArray[np.float64]
 
 SHORTEST_RAMP = 1e-3  # s; a ramp of the acceleration takes time, or the jerk would be infinite
+ENOUGH = 1000  # samples of the whole record from which the outliers are found
 MOST_TRIALS = 150  # of a fit; a profile settles within a hundred, and a car that follows none need not be waited for
 
 
@@ -91,12 +92,13 @@ def _first_parameters(guess: Guess) -> Floats:
 def _fit(time: Floats, position: Floats, noise: float, phases: NDArray[np.int_], first: Floats) -> Fit:
     lower = np.concatenate(([-np.inf] * 3, np.zeros(len(first) - 3)))
     lower[3 + phases[[0, 2, 4, 6]]] = SHORTEST_RAMP
-    parameters, used = np.maximum(first, lower), np.ones(len(time), dtype=bool)
+    parameters, used = np.maximum(first, lower), np.zeros(len(time), dtype=bool)
+    used[:: max(len(time) // ENOUGH, 1)] = True
 
     def residual(p: Floats) -> Floats:
         return (_shape(p, phases).value(time[used]) - position[used]) / noise
 
-    # The first, robust pass is not drawn aside by outliers; the second one, without them, is the best fit.
+    # The first, robust pass is not drawn aside by outliers; the second one, of all but them, is the best fit.
     for loss in ("soft_l1", "linear"):
         bounds = (lower, np.inf)
         solution = least_squares(residual, parameters, bounds=bounds, x_scale="jac", loss=loss, f_scale=3.0, max_nfev=MOST_TRIALS)

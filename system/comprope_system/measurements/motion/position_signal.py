@@ -17,12 +17,15 @@ ACCELERATED = 0.8  # ratio of two estimates of the noise, 1 for white noise, bel
 BIN = 8e-3  # s; denser sampling is averaged to this interval, a fifth of the knots' spacing
 TOP_SPEED = 25.0  # m/s; the highest rated speed that the drive accepts: no car moves faster
 DIGITS = 9  # decimal digits [m] of a value that matter
+GRID = 0.1  # of a step; how far differences may be from multiples of it
 COARSEST = 0.05  # m; a signal of larger steps, such as the number of a landing, shows no motion
 LONGEST_HELD = 1.0  # s; values held for longer do not show how the car starts and stops
 HELD = 1.5  # median number of equal samples in a moving signal from which on its values are held by a slower device
 LONG_HOLD = 10.0  # median holds; a value repeated for longer is that of a car at rest
 LOCAL = 31  # samples over which the noise is local
 JERK = 2.0  # m/s3; a sampling interval at which it matters is too long to tell failures from motion
+HARD_STOP = 15.0  # m/s2; deceleration by a safety gear, beyond the 1 g that standards allow on the average
+LONG_INTERVAL = 0.05  # s between samples from which on what a safety gear does within it is told from no failure of the sensor
 SUSPECT = 8.0  # noise standard deviations from the neighbours, beyond which a sample is looked at
 SURE = 5.0  # standard deviations from an extrapolation of the neighbours on one side, within which a sample continues them
 DEGREES = (1, 2, 3)  # of polynomials through neighbours on one side: constant speed, acceleration and jerk
@@ -61,6 +64,12 @@ class Signal:
     def interval(self) -> float:
         """Median sampling interval [s]."""
         return float(np.median(np.diff(self.time)))
+
+
+    @property
+    def hidden(self) -> float:
+        """Distance [m] that a hard stop within a long sampling interval takes from a steady motion; 0 for dense sampling."""
+        return 0.5 * HARD_STOP * self.interval**2 if self.interval >= LONG_INTERVAL else 0.0
 
 
 def prepare(time: Floats, position: Floats, step: float | None = None) -> Signal:
@@ -124,12 +133,16 @@ def noise(time: Floats, position: Floats, step: float) -> float:
 
 
 def resolution(position: Floats) -> float:
-    """Smallest difference [m] between two values of a signal that repeats some, otherwise that of its decimal digits."""
+    """Smallest difference [m] between two values of a signal that repeats some, otherwise that of its decimal digits.
+
+    Values that are repeated because they are held by a slow device lie on no grid of such steps.
+    """
     rounded = np.round(position, DIGITS)
     steps = np.diff(np.unique(rounded))
     if not len(steps):
         return 0.0
-    if np.any(np.diff(rounded) == 0.0):
+    multiples = steps / steps.min()
+    if np.any(np.diff(rounded) == 0.0) and np.all(np.abs(multiples - np.round(multiples)) < GRID):
         return float(steps.min())
     digits = next(k for k in range(DIGITS + 1) if k == DIGITS or np.array_equal(np.round(rounded, k), rounded))
     return min(float(steps.min()), float(10.0**-digits))
@@ -168,7 +181,7 @@ def spikes(signal: Signal) -> Mask:
 
 def _spikes(signal: Signal) -> Mask:
     time, position, noise, interval = signal.time, signal.position, signal.local_noise, signal.interval
-    least = max(IMPACT * interval if signal.rounded else 0.0, JERK * interval**3)
+    least = max(IMPACT * interval if signal.rounded else 0.0, JERK * interval**3, signal.hidden)
     good = ~_far_away(time, position, noise)
     for _ in range(ROUNDS):
         at = np.flatnonzero(good)

@@ -17,7 +17,7 @@ from comprope.errors import InputError
 from .local_misfit import excess
 from .local_smoothing import smooth_within_noise
 from .motion_spans import motion_spans
-from .position_signal import Signal, no_motion, prepare, spikes
+from .position_signal import HARD_STOP, Signal, no_motion, prepare, spikes
 from .smooth_trip import recover_smooth_trip
 from .trip import ENDS_UNDER_WAY, Piece, Sequence, Trip, constant, continued, smooth_step
 
@@ -115,7 +115,8 @@ def _single(trip: Trip, signal: Signal, residual: Floats) -> NDArray[np.bool_] |
         kept = signal.of(good)
         misses = excess(kept, trip.position(kept.time)) > 1.0
         if not misses.any():
-            return ~good if _stand_out(~good, residual) else None
+            failed = np.all(residual[~good] > signal.hidden) and _stand_out(~good, residual)
+            return ~good if failed else None
         edges = np.flatnonzero(np.diff(np.concatenate(([0], misses.astype(np.int8), [0])))).reshape(-1, 2)
         at = np.flatnonzero(good)
         good[[at[first + int(np.argmax(residual[at[first:after]]))] for first, after in edges]] = False
@@ -154,6 +155,8 @@ def _exact(signal: Signal, span: tuple[float, float], remark: str) -> Trip:
         remarks.append("the record begins under way")
     if not arrives:
         remarks.append(ENDS_UNDER_WAY)
+        if signal.held:
+            remarks.append(f"its last {signal.held:.2g} s are extrapolated, uncertain by some {1e3 * signal.held**2:.2g} mm")
     return Trip((piece,), float(np.std(residual)), "exact", tuple(remarks))
 
 
@@ -185,7 +188,10 @@ def _of_signal(signal: Signal, left_out: NDArray[np.bool_]) -> list[str]:
     """Sentences about the signal itself."""
     found = []
     if signal.held:
-        found.append(f"the signal holds its values for {signal.held:.3g} s; only the samples at which it changes are used")
+        hidden = f"between them a hard stop may move the car by {1e3 * HARD_STOP * signal.held**2 / 8.0:.2g} mm unseen"
+        found.append(
+            f"the signal holds its values for {signal.held:.3g} s; only the samples at which it changes are used, and {hidden}"
+        )
     if (share := float(np.mean(left_out))) > MOST_LEFT_OUT:
         found.append(f"{100.0 * share:.2g} % of the samples continue no motion and are left out")
     return found
