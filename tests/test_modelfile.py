@@ -1,5 +1,6 @@
 """Model files: every problem is named at once; what is written is read back equal."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -50,6 +51,14 @@ def test_all_problems_are_named_at_once(tmp_path):
     assert '"car" or "counterweight" is accepted' in lines[3]
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
+def test_a_pipe_or_a_device_is_no_model_file(tmp_path):
+    os.mkfifo(tmp_path / "pipe.toml")
+    for path in (tmp_path / "pipe.toml", Path("/dev/zero")):
+        with pytest.raises(InputError, match="is a pipe or device; a regular file is accepted"):
+            load(path)
+
+
 def test_ropes_of_a_sheave_are_a_whole_number(tmp_path):
     (line,) = refusal(tmp_path, TOWER.replace("mass = 120.0", "mass = 120.0\nropes = 2.5"))
     assert line == "sheave.ropes: 2.5 ropes; a whole number is accepted"
@@ -86,8 +95,8 @@ def test_a_broken_file_is_one_line(tmp_path, text, expected):
 
 
 def test_a_missing_file_and_a_folder_are_named(tmp_path):
-    for path in (tmp_path, tmp_path / "absent.toml"):
-        with pytest.raises(InputError, match=r": cannot be read: "):
+    for path, sentence in ((tmp_path, "is a folder"), (tmp_path / "absent.toml", "cannot be read: ")):
+        with pytest.raises(InputError, match=f": {sentence}"):
             load(path)
 
 

@@ -1,6 +1,8 @@
 """`comprope new`: raw logger files become a campaign that can be read, and nothing is replaced."""
 
 import json
+import os
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -271,3 +273,14 @@ def test_runs_that_all_begin_at_the_bottom_landing_are_remarked_on(tmp_path):
         raw(0.0, way, 1).to_csv(tmp_path / name, index=False)
     result = comprope_system.new(tmp_path / "campaign", [tmp_path / "up.csv", tmp_path / "up_short.csv"], model=MODEL)
     assert sum("begins at the bottom landing, as every run does" in one for one in result.check.remarks) == 2
+
+
+def test_files_named_twice_or_with_names_that_cannot_be_shown_are_refused(tmp_path, files):
+    with pytest.raises(InputError, match=r"up.csv: named twice"):
+        comprope_system.new(tmp_path / "campaign", [files[0], files[0]], model=MODEL)
+    for name in (b"b\xffd.csv", b"new\nline.csv"):
+        odd = Path(os.fsdecode(bytes(files[0].parent) + b"/" + name))
+        shutil.copy(files[0], odd)
+        with pytest.raises(InputError, match="rename the file") as error:
+            comprope_system.new(tmp_path / "campaign", [odd], model=MODEL)
+        assert str(error.value).isprintable() and not (tmp_path / "campaign" / "campaign.toml").exists()

@@ -1,6 +1,7 @@
 """Reading text files, and writing files atomically: into a temporary file in the same folder that is renamed when complete."""
 
 import os
+import stat
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,6 +9,7 @@ from pathlib import Path
 
 from .errors import InputError
 
+LARGEST_TEXT = 50_000_000  # bytes; far beyond any model file, campaign.toml or effect
 ENDINGS = {"page": (".html", ".htm"), "picture": (".png", ".pdf", ".svg")}
 
 
@@ -29,8 +31,27 @@ def atomic_write(path: str | Path) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
+def require_regular_file(path: str | Path, largest: int, shown: str | None = None) -> None:
+    """Raise `InputError` for what is no regular file of at most `largest` bytes: a pipe would wait, a device never end.
+
+    `shown` is the path in messages.
+    """
+    name = shown or str(path)
+    try:
+        status = Path(path).stat()
+    except (OSError, ValueError) as error:
+        raise InputError(f"{name}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    if not stat.S_ISREG(status.st_mode):
+        kind = "a folder" if stat.S_ISDIR(status.st_mode) else "a pipe or device"
+        raise InputError(f"{name}: is {kind}; a regular file is accepted")
+    if status.st_size > largest:
+        size, unit = (1e9, "GB") if largest >= 1e9 else (1e6, "MB")
+        raise InputError(f"{name}: {status.st_size / size:.1f} {unit}; up to {largest / size:g} {unit} is accepted")
+
+
 def read_text_file(path: str | Path) -> str:
-    """The text of a file; raises `InputError` if it is absent, unreadable or not UTF-8."""
+    """The text of a regular file; raises `InputError` if it is absent, none, unreadable or not UTF-8."""
+    require_regular_file(path, LARGEST_TEXT)
     try:
         return Path(path).read_bytes().decode("utf-8-sig")
     except OSError as error:

@@ -8,6 +8,7 @@ from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 
 from ..identification.workflow import check
+from ..measurements.files.raw_table import printable
 from ..measurements.files.reader import require_regular_file
 from .campaign_text import campaign_text
 from .column_matching import roles
@@ -89,13 +90,17 @@ def _together(one: str | Path) -> list[Path]:
 
 
 def _require_new(path: Path, files: Sequence[Path]) -> None:
-    """Raise `InputError` if there is a campaign already, or no files, or some that are none."""
+    """Raise `InputError` if there is a campaign already, or no files, or some that are none, or named twice."""
     if path.exists():
         raise InputError(f"{path}: exists and is not replaced; remove it, or name another folder")
     if not files:
         raise InputError("no files: name at least one file of a run")
     for one in files:
         require_regular_file(one, None)
+        if not one.name.isprintable():  # nor can a name that is no UTF-8 be written into campaign.toml
+            raise InputError(f"{printable(one, 200)}: its name has characters that cannot be shown; rename the file")
+    if twice := sorted({one.name for one in files if sum(other.name == one.name for other in files) > 1}):
+        raise InputError(f"{', '.join(twice)}: named twice; each file is accepted once, with a name of its own")
 
 
 def _tables(runs: Sequence[SurveyedRun]) -> dict[str, dict[str, object]]:

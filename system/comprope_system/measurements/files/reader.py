@@ -1,10 +1,10 @@
 """The table of a file of any known format, recognised by its content."""
 
 import importlib
-import stat
 import zipfile
 from pathlib import Path
 
+from comprope import atomic_files
 from comprope.errors import InputError
 
 from .file_format import FileFormat
@@ -52,15 +52,7 @@ def read_raw_table(path: Path, stated: FileFormat, within: Path | None = None) -
 def require_regular_file(path: Path, within: Path | None) -> None:
     """Raise `InputError` for pipes, devices, folders, huge files and files outside of the folder `within`."""
     shown = printable(path, 200)
-    try:
-        status = path.stat()
-    except (OSError, ValueError) as error:
-        raise InputError(f"{shown}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    if not stat.S_ISREG(status.st_mode):
-        kind = "a folder" if stat.S_ISDIR(status.st_mode) else "a pipe or device"
-        raise InputError(f"{shown}: is {kind}; a regular file is accepted")
-    if status.st_size > LARGEST:
-        raise InputError(f"{shown}: {status.st_size / 1e9:.1f} GB; up to {LARGEST / 1e9:g} GB is accepted")
+    atomic_files.require_regular_file(path, LARGEST, shown)
     if within is not None and not path.resolve().is_relative_to(within.resolve()):
         raise InputError(
             f"{shown}: lies outside of the campaign's folder; copy it there, or allow it: comprope --allow-outside COMMAND ..."
