@@ -46,8 +46,7 @@ class Job:
 
     def cancel(self) -> None:
         """End the computation and all its processes; what was replayed is remembered."""
-        if self.state == RUNNING:
-            self._finish(CANCELLED, "cancelled; what has been computed is kept for the next time")
+        self._finish(CANCELLED, "what has been computed is kept for the next time")
         self.stop()
 
     def stop(self) -> None:

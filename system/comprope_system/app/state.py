@@ -47,9 +47,11 @@ class State:
         self.changed()
 
     def cancel(self) -> None:
-        """Cancel the running job, and forget one that was interrupted."""
-        if self.job:
+        """Cancel the running job, or forget one that has ended or was interrupted."""
+        if self.job and self.job.state == RUNNING:
             self.job.cancel()
+        else:
+            self.job = None
         self._mark.unlink(missing_ok=True)
         self.changed()
 
