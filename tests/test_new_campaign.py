@@ -284,3 +284,15 @@ def test_files_named_twice_or_with_names_that_cannot_be_shown_are_refused(tmp_pa
         with pytest.raises(InputError, match="rename the file") as error:
             comprope_system.new(tmp_path / "campaign", [odd], model=MODEL)
         assert str(error.value).isprintable() and not (tmp_path / "campaign" / "campaign.toml").exists()
+
+
+def test_columns_that_nearly_hold_numbers_and_swapped_ones_are_left_out_with_a_reason(tmp_path, files):
+    table = pd.read_csv(files[0])
+    table["Laser Kabine [mm]"] = [f"{one} mm" for one in table["Laser Kabine [mm]"]]
+    table["Scheibe Weg (mm)"] = 10.0 * table["Drehzahl [U/min]"]
+    table.assign(datum="02.11.2026").to_csv(files[0], index=False)
+    result = comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL)
+    unread = [one for one in result.remarks if "left out" in one]
+    assert len(unread) == 1 and "up.csv: Laser Kabine [mm]: left out, because cells such as" in unread[0]
+    assert result.columns["Scheibe Weg (mm)"].quantity is None
+    assert "it follows the car's speed as no displacement does" in result.columns["Scheibe Weg (mm)"].why

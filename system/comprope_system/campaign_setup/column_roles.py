@@ -29,8 +29,14 @@ LEVELS = {
     "mid": re.compile(r"mid|mitte|centre|center"),
     "high": re.compile(r"high|top|oben|up"),
 }
+SAYS_NOTHING = frozenset(
+    [
+        "value", "values", "wert", "messwert", "data", "signal", "y", "reading", "channel", "kanal", "ch", "ai", "in", "input",
+        "column", "measurement",
+    ]
+)  # fmt: skip
 FOLLOWS = 0.95  # correlation with the car's speed of a channel that is the sheave's angular velocity
-MILLIMETRES = 0.5  # largest displacement that is rather metres than millimetres
+METRES = {"lateral_displacement": 0.5, "sheave_displacement": 5e-3}  # largest displacements that are rather metres than mm
 
 
 @dataclass(frozen=True)
@@ -70,7 +76,7 @@ def role_of(name: str, evidence: Sequence[Evidence], sensors: Sequence[Sensor]) 
     known = [one for one in evidence if np.isfinite(one.value).sum() > 1]
     if not known:
         return Role(None, certainty=SURE, why="no numbers")
-    plain, unit = plain_name(name), next((one.unit for one in known if one.unit), None)
+    plain, unit = _telling(name), next((one.unit for one in known if one.unit), None)
     follows = _follows(known)
     if unit in UNITS["sheave_angular_velocity"] or (follows is not None and abs(follows[1]) > FOLLOWS and not _is_named(plain)):
         return _turning(unit, follows)
@@ -81,13 +87,27 @@ def role_of(name: str, evidence: Sequence[Evidence], sensors: Sequence[Sensor]) 
     if SHEAVE.search(plain):
         if TURNING.search(plain) and unit is None:
             return _turning(unit, follows)
-        return _with_length(Role("sheave_displacement", certainty=LIKELY, why="by its name"), unit, known)
+        found = _with_length(Role("sheave_displacement", certainty=LIKELY, why="by its name"), unit, known)
+        if follows is not None and abs(follows[1]) > FOLLOWS:
+            return replace(found, certainty=GUESS, why="by its name, but it follows the car's speed as no displacement does")
+        return found
     sensor = _sensor(plain, sensors)
     if sensor or LATERAL.search(plain):
         certainty, at = (LIKELY, sensor.name) if sensor else (GUESS, None)
         found = Role("lateral_displacement", sensor=at, certainty=certainty, why="by its name")
         return _with_length(found, unit, known)
     return Role(None, certainty=GUESS, why="its name says nothing that is known here")
+
+
+def says_nothing(name: str) -> bool:
+    """Whether a name is one that many columns have, such as "Value" and "Channel 3"."""
+    return plain_name(name).rstrip("0123456789").strip("_") in SAYS_NOTHING
+
+
+def _telling(name: str) -> str:
+    """The plain name of a column without parts of its path that say nothing: "cw_low/values"."""
+    parts = [one for one in plain_name(name).split("/") if one and not says_nothing(one)]
+    return "_".join(parts) or plain_name(name)
 
 
 def _is_named(plain: str) -> bool:
@@ -127,7 +147,7 @@ def _with_length(role: Role, unit: str | None, known: Sequence[Evidence]) -> Rol
     if unit is not None:
         return replace(role, unit=unit, certainty=SURE if role.certainty == LIKELY else role.certainty, why="by name and unit")
     reach = max(float(np.nanpercentile(np.abs(one.value - np.nanmedian(one.value)), 99.0)) for one in known)
-    guess = "m" if reach < MILLIMETRES and role.quantity == "lateral_displacement" else "mm"
+    guess = "m" if reach < METRES[str(role.quantity)] else "mm"
     return replace(role, unit=guess, why=f"{role.why}; its unit by its size")
 
 

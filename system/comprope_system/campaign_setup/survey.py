@@ -19,17 +19,12 @@ from ..measurements.motion.recover import recover_trip
 from ..measurements.motion.trip import Trip
 from ..measurements.motion_column import MotionSignal
 from ..measurements.run_files import RunFiles, Samples
+from .column_roles import says_nothing
 from .motion_survey import SurveyedMotion, survey_motion
 from .run_grouping import RunGroup, words
+from .unread_columns import unread_columns
 
 Floats = NDArray[np.float64]
-
-SAYS_NOTHING = frozenset(
-    [
-        "value", "values", "wert", "messwert", "data", "signal", "y", "reading", "channel", "kanal", "ch", "ai", "in", "input",
-        "column", "measurement",
-    ]
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -46,7 +41,8 @@ class SurveyedColumn:
 class SurveyedRun:
     """The files of a run: the motion of the car, its trip, each further column of numbers, and the assumed unit of time.
 
-    A column of another file than the car's is named by that file as well, where its own name says nothing.
+    A column of another file than the car's is named by that file as well, where its own name says nothing. `unread` are sentences
+    about columns of cells that look like numbers and are none.
     """
 
     group: RunGroup
@@ -54,6 +50,7 @@ class SurveyedRun:
     trip: Trip | None
     columns: dict[str, SurveyedColumn]
     time_unit: str | None
+    unread: tuple[str, ...] = ()
 
     @property
     def file(self) -> str:
@@ -112,7 +109,9 @@ def _run(folder: Path, group: RunGroup, model: RopeModel, stated: MotionColumn) 
     except InputError:
         trip = None
     unit = files.assumed_unit if files.assumed_unit != "s" else None
-    return SurveyedRun(group, motion, trip, columns, unit)
+    read = {one.raw.name for one in columns.values()} | motion.columns
+    unread = [sentence for file in (group.file, *group.others) for sentence in unread_columns(files.table(file), file, read)]
+    return SurveyedRun(group, motion, trip, columns, unit, tuple(unread))
 
 
 def _columns(files: RunFiles, file: str, taken: Collection[str] = ()) -> dict[str, SurveyedColumn]:
@@ -138,10 +137,6 @@ def _names(names: Sequence[str], file: str, main: str, taken: Collection[str]) -
     adds = " ".join(one for one in words(file) if one not in words(main)) or Path(file).stem
     plain, found = {plain_name(one) for one in taken}, []
     for name in names:
-        shown = f"{adds} {name}" if plain_name(name) in plain or _says_nothing(name) else name
+        shown = f"{adds} {name}" if plain_name(name) in plain or says_nothing(name) else name
         found.append(shown if plain_name(shown) not in plain else f"{Path(file).stem} {name}")
     return found
-
-
-def _says_nothing(name: str) -> bool:
-    return plain_name(name).rstrip("0123456789").strip("_") in SAYS_NOTHING

@@ -70,6 +70,7 @@ def new(
         temporary.write_text(campaign_text(folder.resolve().name, chosen.file, tables, channels, runs), "utf-8")
     remarks += [f"{run.file}: {run.rest:.2g} s at rest before the trip; references at rest need {SHORT_REST:g} s"
                 for run in surveyed if run.trip is not None and run.rest < SHORT_REST]  # fmt: skip
+    remarks += [sentence for run in surveyed for sentence in run.unread]
     if not ask and not known.changes:
         remarks.append(f"the sheave of the model, {loaded.sheave.mass:g} kg, is taken in every run; {SHEAVE_OF_RUN}")
     parts = {run.file: run.group.others for run in surveyed}

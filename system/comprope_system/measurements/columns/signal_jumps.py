@@ -12,7 +12,8 @@ SPIKE = 15.0  # usual deviations from the mean of both neighbours beyond which a
 APART = 2.0  # times the difference of both neighbours that such a deviation exceeds
 LONE = 3.0  # times the second largest step that a step must be to be no part of the motion
 JUMP = 10.0  # usual steps that it must be as well
-LASTING = 0.5  # share of such a step by which the level must differ after it, as it does when an instrument is knocked
+LASTING = 0.8  # share of such a step by which the level must differ after it, as it does when an instrument is knocked
+WINDOW = 2.0  # s before and after it over which these levels are taken
 MAD_FACTOR = 1.4826  # standard deviation over median absolute deviation of a normal distribution
 
 
@@ -33,5 +34,6 @@ def jump_remarks(time: Floats, values: Floats, unit: str) -> Iterator[str]:
     k = int(np.argmax(steps))
     others = np.delete(steps, k)
     lone = steps[k] > LONE * others.max() and steps[k] > JUMP * float(np.median(others)) > 0.0
-    if lone and abs(np.median(x[k + 1 :]) - np.median(x[: k + 1])) > LASTING * steps[k]:
+    before, after = x[(t > t[k] - WINDOW) & (t <= t[k])], x[(t > t[k]) & (t <= t[k + 1] + WINDOW)]
+    if lone and abs(np.median(after) - np.median(before)) > LASTING * steps[k]:
         yield f"jumps by {steps[k]:.3g} {unit} at time = {t[k + 1]:.4g} s, far beyond its other steps: was the instrument moved?"
