@@ -10,7 +10,7 @@ from pathlib import Path
 from .errors import InputError
 
 LARGEST_TEXT = 50_000_000  # bytes; far beyond any model file, campaign.toml or effect
-ENDINGS = {"page": (".html", ".htm"), "picture": (".png", ".pdf", ".svg")}
+ENDINGS = {"page": (".html", ".htm"), "picture": (".png", ".pdf", ".svg"), "Python file": (".py",)}
 
 
 @contextmanager

@@ -79,7 +79,15 @@ class Animation:
     caption: str = ""
 
 
-Block = str | Card | Table | HeatMap | Picture | Curves | Preview | Animation
+@dataclass(frozen=True)
+class Listing:
+    """A file's text as it is."""
+
+    listing: str
+    caption: str = ""
+
+
+Block = str | Card | Table | HeatMap | Picture | Curves | Preview | Animation | Listing
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...report.page import Block, Picture, Section, Table, save_page
+from ...report.page import Block, Listing, Picture, Section, Table, save_page
 from ..diagnosis.experiment_design import ProposedRun, best_two_fits
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, implausible_parameters, ranking
 from ..preview.effect_preview import EffectPreview
+from ..residuals.effect_skeleton import effect_skeleton
 from ..residuals.input_estimation import InputEstimation
 from ..residuals.residual_correlation import ResidualCorrelation, correlation_sentences
 from ..settings import CORRELATION, EXPERIMENTS
@@ -120,6 +121,9 @@ def _force_blocks(validated: ValidatedDiagnosis, force: InputEstimation) -> list
     if force.correlations:
         bars = figures.correlation_bars(force.correlations, "explained share of the force [%]")
         blocks.append(Picture("force_correlations", bars, "What the estimated force correlates with."))
+    if skeleton := effect_skeleton(force, validated.diagnosis.campaign):
+        caption = "The file of an effect of your own to begin with; `comprope diagnose --skeleton FILE.py` writes it."
+        blocks.append(Listing(skeleton, caption))
     return blocks
 
 

@@ -119,12 +119,12 @@ def _sinusoid(series: list[ResidualSeries], coordinate: str, words: str) -> Resi
             continue
         periods = float(np.ptp(place)) * radians / (2.0 * np.pi)
         total += float((x**2).sum())
-        explained += np.where(grid * periods > CORRELATION.min_periods, _explained_squares(place * radians, x, grid), 0.0)
+        explained += np.where(grid * periods > CORRELATION.min_periods, explained_squares(place * radians, x, grid), 0.0)
     best = int(np.argmax(explained))
     return ResidualCorrelation(words, float(explained[best]) / total if total else 0.0, unit, float(grid[best]))
 
 
-def _explained_squares(phase: Floats, x: Floats, grid: Floats) -> Floats:
+def explained_squares(phase: Floats, x: Floats, grid: Floats) -> Floats:
     """Sum of squares of x (n,) that a sinusoid beside a constant explains, for each frequency of the grid.
 
     `phase` (n,) [rad] is that of frequency 1. Least squares with a cosine and a sine, both centred.

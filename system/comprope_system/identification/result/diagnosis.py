@@ -6,6 +6,9 @@ from typing import Any
 
 import pandas as pd
 
+from comprope.atomic_files import atomic_write
+from comprope.errors import InputError
+
 from ...report.json_output import plain
 from ...report.result import Result
 from ..data.campaign import Campaign
@@ -16,6 +19,7 @@ from ..preview.effect_preview import EffectPreview
 from ..reporting import sentences, tables
 from ..reporting.formatting import listed, paragraphs, text_table, wrapped
 from ..reporting.verdict_card import next_command
+from ..residuals.effect_skeleton import effect_skeleton
 from ..residuals.input_estimation import InputEstimation
 from ..residuals.residual_correlation import ResidualCorrelation, correlation_sentences
 
@@ -79,6 +83,18 @@ class DiagnosisResult(Result):
         """Remarks on the quality of the data."""
         return self.validated.remarks
 
+    @property
+    def effect_skeleton(self) -> str | None:
+        """The file of an effect with the estimated force; None where no effect is unknown, or the force follows nothing."""
+        return effect_skeleton(self.residual_force, self.campaign) if self.residual_force else None
+
+    def save_skeleton(self, path: str | Path) -> None:
+        """Write `effect_skeleton` to a file, completely or not at all; raises `InputError` where there is none."""
+        if (text := self.effect_skeleton) is None:
+            raise InputError(f"{path}: not written: only an unknown effect whose force follows the motion has a skeleton")
+        with atomic_write(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+
     def headline(self) -> str:
         """The verdict with its probability."""
         return sentences.verdict_sentences(self.validated)[0]
@@ -110,7 +126,9 @@ class DiagnosisResult(Result):
             "residual_correlations": correlations, "clues": correlations,
             "next_runs": [one.to_json() for one in self.next_runs[:RUNS]],
         }  # fmt: skip
-        return plain(found | ({"residual_force": self.residual_force.to_json()} if self.residual_force else {}))
+        if self.residual_force:
+            found |= {"residual_force": self.residual_force.to_json(), "effect_skeleton": self.effect_skeleton}
+        return plain(found)
 
     def to_dataframe(self) -> pd.DataFrame:
         """The ranking, one row for each effect: probability, NRMSE before and after, reduced chi-square, parameters as text."""

@@ -65,6 +65,8 @@ class ForceReport:
     min_sinusoid_share: float = setting(
         0.6, "1", "share above which a sinusoid is reported; any smooth history resembles one somewhat", JUDGEMENT
     )
+    max_waves: int = setting(100, "1", "most periods over the shaft of a force that follows the car's position", JUDGEMENT)
+    waves_step: float = setting(0.05, "1", "distance of the numbers of periods that are tried", JUDGEMENT)
     similar_share: float = setting(
         0.1, "1", "difference of explained shares below which locations are not distinguished", JUDGEMENT
     )
