@@ -23,7 +23,7 @@ In JSON, `misfit_per_datum`, `chi_square_per_sample`, `clues`, `bought` and `pru
 `residual_correlations`, `error_reductions` and `removed`; both are written in this version.
 """
 NAMES = ("simulate", "modes", "new", "check", "compare", "diagnose", "add", "improve", "tune", "design")
-OPTIONS = ("CarMotion", "TuningOptions", "DesignOptions", "BuildingSway")
+OPTIONS = ("CarMotion", "Stop", "TuningOptions", "DesignOptions", "BuildingSway")
 
 
 def text(table: Callable[[Iterable[str], Iterable[Iterable[str]]], str]) -> str:

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from .identification.workflow import add, check, compare, diagnose, improve
     from .modal.workflow import modes
     from .sheave_design.workflow import BuildingSway, DesignOptions, design
-    from .simulation.workflow import CarMotion, simulate
+    from .simulation.workflow import CarMotion, Stop, simulate
     from .tuning.workflow import TuningOptions, tune
 
 __all__ = [
-    "BuildingSway", "CarMotion", "DesignOptions", "TuningOptions",
+    "BuildingSway", "CarMotion", "DesignOptions", "Stop", "TuningOptions",
     "add", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "new", "simulate", "tune",
 ]  # fmt: skip
 _MODULES = {
@@ -33,7 +33,7 @@ _MODULES = {
     "identification": ("add", "check", "compare", "diagnose", "improve"),
     "modal": ("modes",),
     "sheave_design": ("BuildingSway", "DesignOptions", "design"),
-    "simulation": ("CarMotion", "simulate"),
+    "simulation": ("CarMotion", "Stop", "simulate"),
     "tuning": ("TuningOptions", "tune"),
 }
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, cast
 
 import typer
 
@@ -28,6 +28,16 @@ TIME = Annotated[float | None, typer.Option(metavar="S", help="Simulated time; d
 STEP = Annotated[float, typer.Option(metavar="S", help="Communication step of the co-simulation.")]
 CAR = Annotated[Path | None, typer.Option(metavar="RUN.csv", help="Prescribe the measured motion; plot measured signals too.")]
 EXACT = Annotated[bool, typer.Option("--exact", help="With --car: take the motion as it is, without looking for a smooth trip.")]
+STOP = Annotated[float | None, typer.Option(metavar="S", help="Stop the car at this time from the start of the simulation.")]
+DECELERATION = Annotated[
+    float | None, typer.Option(metavar="M/S2", help="Deceleration of the stop; default 3, of a safety gear 15, of a buffer 9.81.")
+]
+SAFETY_GEAR = Annotated[bool, typer.Option("--safety-gear", help="With --stop: the car's safety gear stops it.")]
+BUFFER = Annotated[
+    str | None,
+    typer.Option(metavar="KIND", help="Run on to a buffer, hydraulic or spring: the car's or, upward, the counterweight's."),
+]
+BRAKE = Annotated[float | None, typer.Option(metavar="N.M", help="With --stop: the motor is off, the machine's brake on.")]
 DIRECT = Annotated[bool, typer.Option("--direct", help="Simulate in this process instead of with FMUs; same numbers.")]
 FMU = Annotated[
     list[Path] | None,
@@ -55,6 +65,28 @@ class MotionOptions:
 
 
 @dataclass(frozen=True)
+class StopOptions:
+    """A stop in which the trip ends."""
+
+    stop: STOP = None
+    deceleration: DECELERATION = None
+    safety_gear: SAFETY_GEAR = False
+    buffer: BUFFER = None
+    brake: BRAKE = None
+
+    @property
+    def wanted(self) -> "comprope_system.Stop | None":
+        """The stop, if one is asked for; raises `InputError` for one without a time."""
+        given = [name for name in ("deceleration", "safety_gear", "brake") if getattr(self, name)]
+        if self.stop is None and self.buffer is None:
+            if given:
+                raise InputError(f"--{given[0].replace('_', '-')}: accepted with --stop TIME or --buffer KIND")
+            return None
+        buffer = cast("Any", self.buffer)  # checked by `Stop`
+        return comprope_system.Stop(self.stop or 0.0, self.deceleration, self.safety_gear, buffer, self.brake)
+
+
+@dataclass(frozen=True)
 class RunOptions:
     """Options of the simulation."""
 
@@ -77,8 +109,11 @@ class Files:
     report: REPORT = None
 
 
-def simulate(model: MODEL, motion: MotionOptions, options: RunOptions, files: Files) -> None:
+def simulate(model: MODEL, motion: MotionOptions, stop: StopOptions, options: RunOptions, files: Files) -> None:
     """Co-simulate drive and rope for one trip of the car.
+
+    With `--stop TIME` the trip ends in a stop, with `--buffer` it goes on to a buffer. A mass that moves up flies on where the
+    other one is stopped harder than by gravity, falls back and lands.
 
     The CSV file has a column for each sensor of the model: lateral displacement in metres, positive outward,
     empty while the rope's end has passed the sensor. All columns are in SI units.
@@ -87,7 +122,7 @@ def simulate(model: MODEL, motion: MotionOptions, options: RunOptions, files: Fi
     with progress_display() as progress:
         result = comprope_system.simulate(
             model,
-            comprope_system.CarMotion(**vars(motion), measured=options.car, exact=options.exact),
+            comprope_system.CarMotion(**vars(motion), measured=options.car, exact=options.exact, stop=stop.wanted),
             changes=options.changes, duration=options.time, step=options.step,
             coupling="one-way" if options.one_way else "two-way",
             fmu=_fmus(options, files), progress=progress,

@@ -1,9 +1,20 @@
 """Prescribed motion of car and counterweight, in place of the drive."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Protocol
 
-from ..measurements import Trip
+
+class EndMotion(Protocol):
+    """Motion of one end along one direction, up or outward positive, as numbers or arrays of one number."""
+
+    def position(self, time: float) -> Any:
+        """Position [m] at a time [s]."""
+
+    def velocity(self, time: float) -> Any:
+        """Velocity [m/s]."""
+
+    def acceleration(self, time: float) -> Any:
+        """Acceleration [m/s2]."""
 
 
 class PrescribedMotion:
@@ -12,7 +23,7 @@ class PrescribedMotion:
     Its outputs have the names of the drive's, and of the rope's inputs for lateral displacements. It has no inputs.
     """
 
-    def __init__(self, name: str, trips: Mapping[str, Trip], lateral: Mapping[str, Trip] | None = None) -> None:
+    def __init__(self, name: str, trips: Mapping[str, EndMotion], lateral: Mapping[str, EndMotion] | None = None) -> None:
         """`trips` and outward displacements of the rope's ends by name: "car" and "counterweight"."""
         self.name = name
         self._trips, self._lateral = dict(trips), dict(lateral or {})

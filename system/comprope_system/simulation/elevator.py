@@ -15,8 +15,7 @@ from ..cosim import Connection, Participant
 from ..cosim.fmu_cache import NamedFmus
 from ..cosim.fmu_participant import FmuParticipant
 from ..cosim.in_process_participant import InProcessParticipant
-from ..cosim.prescribed_motion import PrescribedMotion
-from ..measurements import Trip
+from ..cosim.prescribed_motion import EndMotion, PrescribedMotion
 
 MOTIONS = tuple(f"{end}_{what}" for end in ("car", "counterweight") for what in ("position", "velocity", "acceleration"))
 TENSIONS = ("car_end_tension", "counterweight_end_tension")
@@ -51,8 +50,8 @@ def driven_elevator(model: RopeModel, drive: Drive, direct: bool = False, fmus: 
 @contextmanager
 def prescribed_elevator(
     model: RopeModel,
-    trips: Mapping[str, Trip],
-    lateral: Mapping[str, Trip],
+    trips: Mapping[str, EndMotion],
+    lateral: Mapping[str, EndMotion],
     direct: bool = False,
     fmus: NamedFmus = OWN_FMUS,
 ) -> Iterator[Elevator]:

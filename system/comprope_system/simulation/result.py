@@ -22,13 +22,14 @@ class SimulationResult(Result, Simulated):
 
     `table` has a column `time` [s] and those that `columns` describes with unit and meaning; cells are NaN where a rope end has
     passed the sensor. `sensors` are the names of the model's sensors, `model` is the model with its changes, `measured` the run
-    that the car followed. `recording` holds the rope's shapes, which FMUs do not show.
+    that the car followed. `remarks` are about the motion. `recording` holds the rope's shapes, which FMUs do not show.
     """
 
     model: RopeModel
     model_name: str
     measured: Run | None
     recording: Recording | None
+    remarks: tuple[str, ...] = ()
 
     def headline(self) -> str:
         """Start and end of the car's motion, and the simulated time."""
@@ -39,7 +40,7 @@ class SimulationResult(Result, Simulated):
         """Key figures of the trip, one per line, and remarks about a measured motion."""
         lines = summary(self)
         width = max(len(name) for name, _ in lines)
-        remarks = self.measured.remarks if self.measured else ()
+        remarks = (*self.remarks, *(self.measured.remarks if self.measured else ()))
         return "\n".join((*(f"{name:<{width}}  {text}" for name, text in lines), *(f"note: {remark}" for remark in remarks)))
 
     def to_json(self) -> dict[str, Any]:
@@ -48,7 +49,7 @@ class SimulationResult(Result, Simulated):
             "model": self.model_name,
             "sensors": list(self.sensors),
             "key_figures": dict(summary(self)),
-            "remarks": list(self.measured.remarks) if self.measured else [],
+            "remarks": [*self.remarks, *(self.measured.remarks if self.measured else ())],
             "units": {"time": "s"} | {one.name: one.unit for one in self.columns},
             "table": plain({name: self.table[name].to_numpy() for name in self.table}),
         }

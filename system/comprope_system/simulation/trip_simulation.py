@@ -93,9 +93,18 @@ def summary(simulated: Simulated) -> list[tuple[str, str]]:
         *((f"peak at {name}", _peak(table, name)) for name in simulated.sensors),
         ("sheave force", f"{force.min():.1f} N to {force.max():.1f} N"),
         ("sheave displacement", f"{_range(table['sheave_displacement'])} mm"),
+        *_slack(table),
         ("energy residual", f"{table['energy_residual'].abs().max():.2g} J at most"),
         ("Newton iterations", f"{end['newton_iterations']:.0f}, {end['halvings']:.0f} steps halved"),
     ]
+
+
+def _slack(table: pd.DataFrame) -> list[tuple[str, str]]:
+    """How much rope was slack, for how long, and the largest tension; nothing of a trip without slack rope."""
+    if not table["slack_duration"].iloc[-1] > 0.0:
+        return []
+    slack = f"{table['slack_length'].max():.1f} m at most, {table['slack_duration'].iloc[-1]:.2f} s"
+    return [("slack rope", slack), ("peak tension", f"{table['peak_element_tension'].iloc[-1]:.0f} N")]
 
 
 def _height(value: float) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 from comprope.drive.parameters import Drive
 from comprope.drive.trajectory.reference_trajectory import first_trajectory
+from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
@@ -26,9 +27,13 @@ from .animation.frames import FrameRecorder
 from .elevator import OWN_FMUS, Elevator, driven_elevator, prescribed_elevator
 from .measured_run import MotionWishes, Run, measured_timing, read_run
 from .result import SimulationResult
+from .stop import LARGEST, Stop, braking
+from .stop_motion import Trajectory, stopped_motions
 from .trip_simulation import Timing
 from .trip_simulation import simulate as simulate_trip
 
+BEYOND = 1e5  # m, destination of a car that does not stop by itself
+BRAKED = {False: "", True: ": the hoist ropes slip on the traction sheave"}
 SETTLE = 8.0  # s simulated after the trip, while the rope vibrates freely
 
 
@@ -40,7 +45,7 @@ class CarMotion:
     `acceleration` [m/s2] and `jerk` [m/s3] replace the drive's limits. `drive` is a parameter file or a `Drive`, by default the
     preset's own. `measured` is a CSV file with `time` and `car_position`, which the car then follows instead; `start` and `end`
     are then the heights at the start and end of the record, where its zero is another, and `exact` takes the motion as it
-    is, without looking for a smooth trip.
+    is, without looking for a smooth trip. With a `stop` the trip ends in it; car and counterweight then follow its motion.
     """
 
     start: float | None = None
@@ -51,6 +56,7 @@ class CarMotion:
     drive: DriveInput | None = None
     measured: str | Path | None = None
     exact: bool = False
+    stop: Stop | None = None
 
 
 def simulate(
@@ -81,7 +87,11 @@ def simulate(
         own, source = by_key(changes)
         rope_model = with_changes(rope_model, measured.changes | own, source)
     elevator: AbstractContextManager[Elevator]
-    if measured:
+    remarks: tuple[str, ...] = ()
+    if motion.stop:
+        elevator, natural, remarks = _stopped(model, motion, rope_model, drive_changes, fmus)
+        timing = Timing(natural if duration is None else duration, step, coupling)
+    elif measured:
         elevator = prescribed_elevator(rope_model, measured.trips, measured.lateral, fmus is None, fmus or OWN_FMUS)
         timing = measured_timing(measured, duration, step, coupling)
     else:
@@ -92,13 +102,13 @@ def simulate(
         simulated = simulate_trip(ready, names, timing, partial(_advance, progress, recorder, timing.steps_before))
     recording = recorder.recording if recorder else None
     return SimulationResult(
-        simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording
+        simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording, remarks
     )
 
 
 def _measured(motion: CarMotion, model: RopeModel, sensors: Sequence[str]) -> Run:
     """The measured run that the car follows; raises `InputError` for options that concern the drive."""
-    unused = [name for name in ("speed", "acceleration", "jerk", "drive") if getattr(motion, name) is not None]
+    unused = [name for name in ("speed", "acceleration", "jerk", "drive", "stop") if getattr(motion, name) is not None]
     if unused:
         raise InputError(f"{', '.join(unused)}: not accepted with a measured motion, which has no drive")
     wishes = MotionWishes("exact" if motion.exact else None, motion.start, motion.end)
@@ -138,6 +148,12 @@ def _driven(
     model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]], fmus: NamedFmus | None
 ) -> tuple[AbstractContextManager[Elevator], float]:
     """The elevator with its drive for the requested trip in the shaft of the model, and the simulated time [s]."""
+    drive = _drive(model, motion, rope_model, changes)
+    return driven_elevator(rope_model, drive, fmus is None, fmus or OWN_FMUS), first_trajectory(drive).end_time + SETTLE
+
+
+def _drive(model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]]) -> Drive:
+    """The drive with the requested trip in the shaft of the model."""
     height = rope_model.shaft.height
     limits = {"speed": motion.speed, "acceleration": motion.acceleration, "jerk": motion.jerk}
     trip = {
@@ -150,5 +166,24 @@ def _driven(
         "trip": trip,
     }
     merged = {table: asked.get(table, {}) | changes.get(table, {}) for table in {*asked, *changes}}
-    drive = read_drive(motion.drive, model, merged)
-    return driven_elevator(rope_model, drive, fmus is None, fmus or OWN_FMUS), first_trajectory(drive).end_time + SETTLE
+    return read_drive(motion.drive, model, merged)
+
+
+def _stopped(
+    model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]], fmus: NamedFmus | None
+) -> tuple[AbstractContextManager[Elevator], float, tuple[str, ...]]:
+    """The elevator whose ends move as in a stop, the simulated time [s], and remarks."""
+    drive, stop, height = _drive(model, motion, rope_model, changes), motion.stop or Stop(), rope_model.shaft.height
+    trip: Trajectory = first_trajectory(drive)
+    remarks: tuple[str, ...] = ()
+    if stop.buffer:
+        beyond = BEYOND if drive.trip.destination > drive.trip.start_position else -BEYOND
+        trip = plan_s_curve(drive.profile, drive.trip.start_position, beyond, drive.trip.start_time)
+    if stop.brake is not None:
+        at = trip.at(stop.time)
+        found = braking(drive, stop.brake, at.position, at.velocity)
+        stop = Stop(stop.time, min(found.deceleration, LARGEST))
+        remarks = (f"the brake holds the car back by {found.deceleration:.2f} m/s2{BRAKED[found.slips]}",)
+    motions = stopped_motions(trip, stop, height, rope_model.shaft.gravity)
+    elevator = prescribed_elevator(rope_model, motions, {}, fmus is None, fmus or OWN_FMUS)
+    return elevator, max(one.end for one in motions.values()) + SETTLE, remarks

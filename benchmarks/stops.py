@@ -1,0 +1,126 @@
+"""Stops of car and counterweight: rise of the sheave, forces and slack, with and without a tie-down; and a picture of one.
+
+    python benchmarks/stops.py [--convergence] [--picture FILE.png]
+
+The car moves down at the speed named and is stopped at half height: by its drive, at 1 g, or harder by its safety gear.
+"""
+
+import argparse
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import comprope_system
+from comprope_system import CarMotion, Stop
+from comprope_system.simulation.animation.frames import DEPTHS
+from comprope_system.simulation.result import SimulationResult
+
+SPEEDS = (2.5, 6.0, 9.0)
+STOPS = {"3 m/s2": Stop(deceleration=3.0), "1 g": Stop(deceleration=9.81), "safety gear": Stop(safety_gear=True)}
+ACCELERATION = 3.0  # m/s2, to reach the speed within the lower shaft
+TIE_DOWN = {  # closes at 0.3 m/s; an end stop beyond
+    "effects.tie_down.upward_damping": 1e3, "effects.tie_down.locking_damping": 1e5, "effects.end_stops.stiffness": 2e6,
+    "effects.end_stops.damping": 2e4, "effects.end_stops.up": 0.1, "effects.end_stops.down": 0.2,
+}  # fmt: skip
+HEAD = (
+    "| model | speed | stop | tie-down | rise mm | sheave force N | largest tension N | least at an end N | slack m | for s "
+    "| residual J |"
+)
+
+
+def stopped(preset: str, speed: float, stop: Stop, changes: dict[str, float]) -> SimulationResult:
+    """The stop of a car that comes down at a speed [m/s], at half height."""
+    height = {"tower50": 50.0, "building200": 200.0}[preset]
+    lead = speed**2 / (2.0 * ACCELERATION) + speed * 0.25  # way to the speed
+    time = 1.0 + speed / ACCELERATION + 0.5 + (0.5 * height - lead) / speed * 0.5
+    origin = 0.5 * height + lead + 0.25 * height - 0.5 * lead
+    motion = CarMotion(
+        min(origin, height), 0.0, speed, ACCELERATION, 6.0,
+        stop=Stop(time, stop.deceleration, stop.safety_gear),
+    )  # fmt: skip
+    return comprope_system.simulate(preset, motion, changes=changes, duration=time + 4.0, step=0.01)
+
+
+def row(preset: str, speed: float, name: str, held: bool, changes: dict[str, float] | None = None) -> str:
+    """One line of the table."""
+    table = stopped(preset, speed, STOPS[name], (TIE_DOWN if held else {}) | (changes or {})).table
+    least = min(table["car_end_tension"].min(), table["counterweight_end_tension"].min())
+    force = f"{table['sheave_force'].min():.0f} to {table['sheave_force'].max():.0f}"
+    cells = (
+        preset, f"{speed:g}", name, "yes" if held else "no", f"{1e3 * table['sheave_displacement'].max():.0f}", force,
+        f"{table['peak_element_tension'].iloc[-1]:.0f}", f"{least:.0f}", f"{table['slack_length'].max():.0f}",
+        f"{table['slack_duration'].iloc[-1]:.2f}", f"{table['energy_residual'].abs().max():.1f}",
+    )  # fmt: skip
+    return "| " + " | ".join(cells) + " |"
+
+
+def convergence() -> None:
+    """The hardest stop on other meshes and steps, and with other ratios of the stiffness in compression."""
+    print(HEAD.replace("model", "change"))
+    for changes in ({}, {"rope.element_length": 0.1}, {"rope.element_length": 0.025}, {"solver.step": 0.001},
+                    {"rope.compression_ratio": 1e-2}, {"rope.compression_ratio": 3e-4}):  # fmt: skip
+        text = ", ".join(f"{key} = {value:g}" for key, value in changes.items()) or "none"
+        print(row("building200", 9.0, "safety gear", False, changes).replace("building200", text), flush=True)
+
+
+def picture(path: Path) -> None:
+    """Sheave rise, tensions and rope shapes in the hardest stop of the 200 m building."""
+    result = stopped("building200", 9.0, STOPS["safety gear"], {})
+    table, figure = result.table, Figure(figsize=(11.0, 6.0), layout="constrained")
+    grid = figure.add_gridspec(3, 2, width_ratios=(1.4, 1.0))
+    top, middle, low = (figure.add_subplot(grid[k, 0]) for k in range(3))
+    begin = table["time"].iloc[-1] - 4.0
+    seen = table[table["time"] > begin - 0.3]
+    time = seen["time"] - begin
+    top.plot(time, seen["car_position"] - seen["car_position"].iloc[-1], label="car")
+    top.plot(time, seen["counterweight_position"] - seen["counterweight_position"].iloc[-1], label="counterweight")
+    top.set_ylabel("from the end [m]")
+    middle.plot(time, 1e3 * seen["sheave_displacement"], color="black")
+    middle.set_ylabel("sheave rise [mm]")
+    low.plot(time, 1e-3 * seen["car_end_tension"], label="car's end")
+    low.plot(time, 1e-3 * seen["counterweight_end_tension"], label="counterweight's end")
+    low.plot(time, 1e-3 * seen["sheave_force"], color="black", linewidth=0.8, label="sheave")
+    low.set(xlabel="time from the stop [s]", ylabel="force [kN]")
+    for axes in (top, low):
+        axes.legend(frameon=False, fontsize=8)
+    _draw_shapes(figure.add_subplot(grid[:, 1]), result, begin)
+    figure.suptitle("Car down at 9 m/s, stopped by its safety gear at 15 m/s2: 200 m building")
+    figure.savefig(path, dpi=110)
+
+
+def _draw_shapes(axes: Axes, result: SimulationResult, begin: float) -> None:
+    """The rope before and at some times after the stop, car's side left; lateral positions are enlarged by the axes."""
+    for after in (-0.2, 0.8, 1.5, 1.8, 2.5):
+        frame = result.recording.frames[round((begin + after) / result.recording.interval)]
+        axle = frame.axle - result.model.shaft.pit
+        heights = [end + DEPTHS * (axle - end) for end in frame.ends]
+        across = [-0.4 - frame.sides[0], 0.4 + frame.sides[1]]
+        (line,) = axes.plot(across[0], heights[0], linewidth=1.0, label=f"{after:+.1f} s")
+        axes.plot(across[1], heights[1], linewidth=1.0, color=line.get_color())
+    axes.set(xlabel="lateral position [m]", ylabel="height [m]")
+    axes.legend(frameon=False, fontsize=8, title="after the stop")
+
+
+def main() -> None:
+    """Print the table, or what is asked for."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--convergence", action="store_true", help="print what mesh and step change instead")
+    parser.add_argument("--picture", type=Path, help="draw one stop instead")
+    options = parser.parse_args()
+    if options.picture:
+        picture(options.picture)
+        return
+    if options.convergence:
+        convergence()
+        return
+    print(HEAD, "|---|---|---|---|---|---|---|---|---|---|---|", sep="\n")
+    for preset in ("tower50", "building200"):
+        for speed in SPEEDS:
+            for name in STOPS:
+                for held in (False, True):
+                    print(row(preset, speed, name, held), flush=True)
+
+
+if __name__ == "__main__":
+    main()
