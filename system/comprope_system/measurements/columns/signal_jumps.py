@@ -13,7 +13,7 @@ APART = 2.0  # times the difference of both neighbours that such a deviation exc
 LONE = 3.0  # times the second largest step that a step must be to be no part of the motion
 JUMP = 10.0  # usual steps that it must be as well
 LASTING = 0.8  # share of such a step by which the level must differ after it, as it does when an instrument is knocked
-WINDOW = 2.0  # s before and after it over which these levels are taken
+WINDOW = 2.0  # s before and after it over which these levels are taken, or those of the whole record
 MAD_FACTOR = 1.4826  # standard deviation over median absolute deviation of a normal distribution
 
 
@@ -34,6 +34,11 @@ def jump_remarks(time: Floats, values: Floats, unit: str) -> Iterator[str]:
     k = int(np.argmax(steps))
     others = np.delete(steps, k)
     lone = steps[k] > LONE * others.max() and steps[k] > JUMP * float(np.median(others)) > 0.0
-    before, after = x[(t > t[k] - WINDOW) & (t <= t[k])], x[(t > t[k]) & (t <= t[k + 1] + WINDOW)]
-    if lone and abs(np.median(after) - np.median(before)) > LASTING * steps[k]:
+    near = (t > t[k] - WINDOW) & (t <= t[k + 1] + WINDOW)
+    if lone and any(_shift(x[own], t[own] > t[k]) > LASTING * steps[k] for own in (near, np.ones(len(t), bool))):
         yield f"jumps by {steps[k]:.3g} {unit} at time = {t[k + 1]:.4g} s, far beyond its other steps: was the instrument moved?"
+
+
+def _shift(values: Floats, after: NDArray[np.bool_]) -> float:
+    """Difference of the levels of `values` (n,) where `after` is false and where it is true."""
+    return float(abs(np.median(values[after]) - np.median(values[~after])))
