@@ -1,7 +1,7 @@
 """Natural periods and mode shapes of the suspended rope for a car position."""
 
 from dataclasses import dataclass
-from math import pi
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,7 +90,8 @@ def _mode(rope: CompensationRope, square: float, motion: Floats) -> Mode:
     place, lowest = _place(rope, motion, x), int(np.argmax(x))
     side = slice(0, lowest) if place == "car" else slice(lowest, n)
     waves = 0 if place == "sheave" else _half_waves(shape[side, 1])
-    return Mode(2.0 * pi / square**0.5, place, waves, shape)
+    # A sheave without friction turns freely, which rounding makes a square of either sign.
+    return Mode(2.0 * pi / square**0.5 if square > 0.0 else inf, place, waves, shape)
 
 
 def _place(rope: CompensationRope, motion: Floats, x: Floats) -> str:

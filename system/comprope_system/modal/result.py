@@ -16,6 +16,7 @@ from ..report.plot_style import COLOURS, label, legend, panels
 from ..report.result import Result
 from .hanging_string import side_string
 from .modes import Mode, Modes
+from .sheave_resonance import SheaveResonances
 
 SHOWN = 6  # shapes in the picture
 POINTS = 400  # of a shape in JSON, about
@@ -30,11 +31,13 @@ LEAD = (
 class ModesResult(Result, Modes):
     """Natural modes by falling period with the car at `car` [m]; `heights` (n,) [m] are those of the shapes' points at rest.
 
+    `sheave` has the frequencies [Hz] of its bounce and its rotation.
     Each of `modes` has `period` [s], `frequency` [Hz], `place`, `half_waves` and `shape` (n + 1, 2).
     """
 
     model: Base
     model_name: str
+    sheave: SheaveResonances
 
     def string_period(self, mode: Mode) -> float | None:
         """The hanging string's period [s] for a lateral mode; None for one along the rope."""
@@ -52,7 +55,12 @@ class ModesResult(Result, Modes):
             f"{period:>11}  {frequency:>14}  {place:<14}  {waves:>10}  {string:>10}"
             for period, frequency, place, waves, string in self._rows()
         ]
+        lines += [f"sheave's {name}: {text}" for name, text in self._resonances()]
         return "\n".join(lines)
+
+    def _resonances(self) -> list[tuple[str, str]]:
+        found = {"bounce": self.sheave.bounce, "rotation": self.sheave.rotation}
+        return [(name, "none" if value is None else f"{value:.2f} Hz") for name, value in found.items()]
 
     def to_json(self) -> dict[str, Any]:
         """Periods [s], frequencies [Hz] and shapes; heights [m] are those of the shapes' points."""
@@ -60,6 +68,8 @@ class ModesResult(Result, Modes):
         return {
             "car_position": self.car,
             "heights": self.heights[points].tolist(),
+            "sheave_bounce": self.sheave.bounce,
+            "sheave_rotation": self.sheave.rotation,
             "modes": [
                 {
                     "period": mode.period, "frequency": mode.frequency, "place": mode.place, "half_waves": mode.half_waves,
@@ -77,7 +87,8 @@ class ModesResult(Result, Modes):
     def save_html(self, path: str | Path) -> None:
         """Write an HTML page with table and mode shapes, completely or not at all."""
         title = f"{self.model_name}: natural modes, car at {self.car:g} m"
-        blocks: list[Block] = [Table(HEAD, self._rows()), Picture("modes", self.plot())]
+        resonances = Table(("sheave", "largest mobility at"), self._resonances())
+        blocks: list[Block] = [Table(HEAD, self._rows()), resonances, Picture("modes", self.plot())]
         save_page(path, title, LEAD, [Section("modes", "Natural modes", blocks)])
 
     def save_plot(self, path: str | Path) -> None:

@@ -1,11 +1,14 @@
 """The public function `comprope_system.modes`: natural periods and shapes of the rope at rest."""
 
 from comprope.errors import InputError
+from comprope.rope.simulator.rope import CompensationRope
 
 from ..presets.inputs import ModelInput, model_name, read_model
 from ..presets.overrides import Changes
+from .linearisation import linearise
 from .modes import modes as natural_modes
 from .result import ModesResult
+from .sheave_resonance import sheave_resonances
 
 
 def modes(model: ModelInput, car_position: float = 0.0, count: int = 10, *, changes: Changes | None = None) -> ModesResult:
@@ -21,4 +24,7 @@ def modes(model: ModelInput, car_position: float = 0.0, count: int = 10, *, chan
     if count < 1:
         raise InputError(f"count = {count}: a whole number from 1 is accepted")
     found = natural_modes(changed, car_position, count)
-    return ModesResult(found.car, found.heights, found.modes, changed, model_name(model))
+    rope = CompensationRope(changed)
+    rope.solve_equilibrium(car_position, changed.shaft.height - car_position)
+    resonances = sheave_resonances(rope, linearise(rope))
+    return ModesResult(found.car, found.heights, found.modes, changed, model_name(model), resonances)
