@@ -51,7 +51,8 @@ def test_it_begins_with_what_was_found():
     assert "default=2.5)" in text and "nominal=0.98," in text  # the spacing [m], and the amplitude of the sinusoid [N]
     assert "default=1.7)" in proposed("sheave_torque", FOLLOWED[-2])
     text = proposed("car_side", ResidualCorrelation(COORDINATES["velocity"], 0.9, ""))
-    assert "default=1)" in text and "p[SIZE] * -v[0] / p[REFERENCE]" in text  # the car's top speed [m/s]
+    top = np.abs(TRIP.velocity(TIME)).max()  # m/s
+    assert f"default={top:.3g})" in text and "p[SIZE] * -v[0] / p[REFERENCE]" in text
 
 
 @pytest.mark.parametrize(
