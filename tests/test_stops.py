@@ -11,7 +11,8 @@ from comprope.drive.parameters import Drive, Profile
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError
 from comprope_system.cli import app
-from comprope_system.presets.inputs import load_drive
+from comprope_system.presets.inputs import load_drive, read_model
+from comprope_system.sheave_design.stop_cases import stop_case, stop_cases
 from comprope_system.simulation.stop import Stop, braking, groove_friction
 from comprope_system.simulation.stop_motion import StoppedMotion, stopped_motions
 
@@ -120,3 +121,16 @@ def test_bad_stops_are_one_sentence(options: list[str], sentence: str) -> None:
     outcome = CliRunner().invoke(app, ["simulate", "tower50", "--direct", *options])
     assert outcome.exit_code != 0
     assert sentence in str(outcome.exception)
+
+
+def test_a_design_s_stop_tells_rise_force_and_tension() -> None:
+    model, profile = read_model("tower50"), Profile(speed=2.5, acceleration=1.5, jerk=3.0)
+    cases = stop_cases(model, profile, 3)
+    assert [(one["stop"], one["height"]) for one in cases] == [("drive", 25.0), ("1 g", 25.0), ("safety gear", 25.0)]
+    found = [stop_case(one) for one in cases]
+    assert [one["speed"] for one in found] == pytest.approx([2.5] * 3)
+    assert [one["rise"] for one in found] == sorted(one["rise"] for one in found)
+    assert found[2]["rise"] == pytest.approx(0.058, abs=0.01)
+    assert found[0]["slack_duration"] == 0.0
+    assert found[2]["sheave_force"] > 2.0 * found[0]["sheave_force"]
+    assert found[2]["peak_tension"] > 0.5 * found[2]["sheave_force"]

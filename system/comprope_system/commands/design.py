@@ -25,6 +25,7 @@ SENSORS = Annotated[int, typer.Option(metavar="N", min=1, max=20, help="Number o
 SET = Annotated[
     list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.radius=0.3. Repeatable.")
 ]
+STOPS = Annotated[bool, typer.Option("--stops", help="Stop the car at every floor too: rise of the sheave, forces, slack.")]
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for HTML page, figures and result.json.")]
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result to this file as well.")]
 
@@ -45,6 +46,7 @@ class Demands:
     sway_limit: SWAY_LIMIT = None
     sensors: SENSORS = 4
     changes: SET = None
+    stops: STOPS = False
 
     @property
     def options(self) -> "comprope_system.DesignOptions":
@@ -53,7 +55,7 @@ class Demands:
         if self.sway_period:
             sway = comprope_system.BuildingSway(1e-3 * self.sway_amplitude, self.sway_period, self.sway_duration)
         sway_limit = None if self.sway_limit is None else 1e-3 * self.sway_limit
-        return comprope_system.DesignOptions(1e-3 * self.limit, self.floors, sway, sway_limit, self.sensors)
+        return comprope_system.DesignOptions(1e-3 * self.limit, self.floors, sway, sway_limit, self.sensors, self.stops)
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,7 @@ def summary(result: Result) -> list[str]:
     return [
         f"smallest sheave mass for {1e3 * result['limit']:g} mm: {result['mass']:.1f} kg as sheave.mass "
         f"(reduced model: {result['mass_small']:.1f} kg)",
+        *_worst_stops(result),
         f"sensors: {places}; one of them measures at least {100.0 * result['sensors']['share']:.0f} % of any large swing",
     ]
 
@@ -38,7 +39,38 @@ def sections(result: Result, model: RopeModel, chosen: RopeModel, profile: Profi
         Section("mass", "Smallest sheave mass", _mass(result)),
         Section("resonance", "Resonances", _resonance(result, model, chosen, profile)),
         Section("sensors", "Sensor heights", _sensors(result)),
+        *([Section("stops", "Stops", _stops(result))] if result["stops"] else []),
     ]
+
+
+def _worst_stops(result: Result) -> list[str]:
+    """The largest rise, force and tension of each kind of stop."""
+    lines = []
+    for kind in dict.fromkeys(one["stop"] for one in result["stops"]):
+        rise, force, tension = (
+            max(one[name] for one in result["stops"] if one["stop"] == kind) for name in ("rise", "sheave_force", "peak_tension")
+        )
+        lines.append(
+            f"stop, {kind}: the sheave rises by up to {1e3 * rise:.0f} mm and takes {force:.0f} N, the rope {tension:.0f} N"
+        )
+    return lines
+
+
+def _stops(result: Result) -> list[Block]:
+    text = (
+        "The car comes down from the top landing and is stopped as it passes each floor: by its drive, at 1 g, and by its safety "
+        "gear, harder than by gravity, where the counterweight flies on, falls back and lands. Full model with the smallest "
+        "sheave; forces are those of one rope."
+    )
+    rows = [
+        (one["stop"], f"{one['height']:.1f}", f"{one['speed']:.2f}", f"{1e3 * one['rise']:.1f}", f"{one['sheave_force']:.0f}",
+         f"{one['peak_tension']:.0f}", f"{one['slack_duration']:.2f}")
+        for one in result["stops"]
+    ]  # fmt: skip
+    head = (
+        "stop", "at [m]", "speed [m/s]", "rise of the sheave [mm]", "force on it [N]", "largest tension [N]", "slack for [s]",
+    )  # fmt: skip
+    return [text, Table(head, rows)]
 
 
 def _mass(result: Result) -> list[Block]:

@@ -23,7 +23,9 @@ class DesignResult(Result):
 
     `sheave_mass` [kg] is the least `sheave.mass` on the full model, `reduced_model_mass` that of the reduced model; `scanned` has
     the worst trip and the worst parked floor by mass, `full_model_runs` pairs of mass [kg] and swing [m], `sensors` the heights
-    [m] on each side and the share of a large swing that they see. `model` is the model as given, `new_model` has the new sheave.
+    [m] on each side and the share of a large swing that they see. `stops`, if asked for, has for each kind of stop and floor the
+    `speed` [m/s], the sheave's `rise` [m], its largest `sheave_force` [N], `peak_tension` of the rope [N] and `slack_duration`
+    [s]. `model` is the model as given, `new_model` has the new sheave.
     """
 
     settings: Mapping[str, Any]
@@ -32,6 +34,7 @@ class DesignResult(Result):
     scanned: tuple[dict[str, Any], ...]
     full_model_runs: tuple[list[float], ...]
     sensors: Mapping[str, Any]
+    stops: tuple[dict[str, Any], ...]
     model: RopeModel
     new_model: RopeModel
     profile: Profile
@@ -49,6 +52,7 @@ class DesignResult(Result):
         return {
             **self.settings, "own_mass": self.model.sheave.mass, "mass_small": self.reduced_model_mass, "mass": self.sheave_mass,
             "scanned": list(self.scanned), "full": list(self.full_model_runs), "sensors": dict(self.sensors),
+            "stops": list(self.stops),
         }  # fmt: skip
 
     def to_dataframe(self) -> pd.DataFrame:

@@ -24,6 +24,7 @@ from ..tuning.task import reduced_model_of
 from .building_sway import BuildingSway, parked_departures
 from .result import DesignResult
 from .sensor_placement import choose_sensors
+from .stop_cases import stop_case, stop_cases
 from .trip_envelopes import envelopes, floor_heights, full_model_case, mass_case, model_with_sheave, trips_between
 
 MASS_RATIOS = np.geomspace(0.35, 8.0, 22)  # of the model's own sheave
@@ -39,7 +40,7 @@ class DesignOptions:
 
     `swing_limit` [m] is the largest swing during and after a trip, `floors` the number of evenly spaced floors between which all
     trips count, `sway` that of the building, `sway_limit` [m] the largest swing in it, None if it is only computed; `sensors` is
-    the number of sensors to place.
+    the number of sensors to place. With `stops` the new sheave goes through stops at every floor as well.
     """
 
     swing_limit: float = 0.010
@@ -47,6 +48,7 @@ class DesignOptions:
     sway: BuildingSway | None = None
     sway_limit: float | None = None
     sensors: int = 4
+    stops: bool = False
 
 
 @dataclass(frozen=True)
@@ -94,14 +96,16 @@ def design(
         if sway and options.sway_limit is not None:
             mass = max(mass, _least_mass(scanned, "sway", "sway_limit", _millimetres(options.sway_limit)))
         least, runs = _on_full_model(base, scanned, mass, options.swing_limit, sweeps)
-    new_model = model_with_sheave(given, least)
+        new_model = model_with_sheave(given, least)
+        asked = stop_cases(new_model, profile, options.floors) if options.stops else []
+        stops = sweeps.values(stop_case, asked, "stops") if asked else []
     settings = {
         "model": model_name(model), "limit": options.swing_limit,
         "sway_limit": None if options.sway_limit is None else _millimetres(options.sway_limit),
         "floors": options.floors, "sway": base["sway"],
     }  # fmt: skip
     sensors = _sensors(new_model, profile, options)
-    return DesignResult(settings, least, mass, tuple(scanned), tuple(runs), sensors, given, new_model, profile)
+    return DesignResult(settings, least, mass, tuple(scanned), tuple(runs), sensors, tuple(stops), given, new_model, profile)
 
 
 def _millimetres(length: float) -> float:
