@@ -116,7 +116,8 @@ def _beside(signal: MotionSignal, car: Trip, height: float) -> Trip:
     else:
         apart = _named(signal, lambda: recover_signal(total, "exact"))
         largest = 1e3 * float(np.ptp(apart.position(total.time)))
-        remarks = [f"does not mirror the car; the sum of both heights varies by {largest:.3g} mm"]
+        own = [one.removeprefix(f"{signal.column}: ") for one in apart.remarks]
+        remarks = [f"does not mirror the car; the sum of both heights varies by {largest:.3g} mm", *own]
         counterweight = Trip((*car.mirrored(0.0).pieces, *apart.pieces), apart.noise, apart.kind)
         level = float(apart.position(total.time[0]))
     if abs(level - height) > SUM_OF_HEIGHTS:

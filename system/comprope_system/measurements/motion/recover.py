@@ -150,7 +150,8 @@ def _exact(signal: Signal, span: tuple[float, float], remark: str) -> Trip:
         remarks.append(f"the recovered motion misses the measured position by {1e3 * abs(residual[worst]):.3g} mm {where}")
     fastest = float(np.abs(piece.derivative(signal.time, 2)).max())
     if fastest > FAST:
-        remarks.append(f"the motion reaches {fastest:.3g} m/s2: an impact, or a failure of the sensor")
+        unseen = f"samples {1e3 * signal.interval:.3g} ms apart do not show its course"
+        remarks.append(f"the motion reaches {fastest:.3g} m/s2: an impact, or a failure of the sensor; {unseen}")
     if not departs:
         remarks.append("the record begins under way")
     if not arrives:
