@@ -18,7 +18,7 @@ from comprope_system.studies.design import least_mass
 from comprope_system.studies.peaks import oscillator_peak, peak
 from comprope_system.studies.study import StudyOptions
 from comprope_system.studies.swing import MEASURES, swing, swing_case
-from comprope_system.verification import invariants, offset, reference
+from comprope_system.verification import capstan, invariants, offset, reference
 from comprope_system.verification.free_rope import Hanging, swing_sideways
 
 COARSE = {"rope.element_length": 0.1, "solver.step": 0.01}
@@ -165,6 +165,14 @@ def test_verification_offset() -> None:
     # EI / (2 r T) = 20 N m2 / (2 * 0.4 m * 596 N) = 41.9 mm at the axle; 2 m above it 6 % less, as the tension grows.
     weight = 9.81 * (120.0 + 1.2 * np.pi * 0.4)
     assert row.rigid[0] == pytest.approx(0.94 * 20.0 / (0.4 * weight), rel=0.03)
+
+
+def test_a_rope_that_slides_obeys_the_capstan_equation_with_bending() -> None:
+    row = capstan.slide(0.3, 20.0)
+    assert abs(row.error) < capstan.ALLOWED
+    assert row.form == pytest.approx(2.33, abs=0.01)  # by hand, with 62.5 N of bending
+    without = capstan.closed_form(installation(TOWER, {"rope.bending_stiffness": 0.0, "rope.mass_per_length": 0.05}), 500.0)
+    assert without == pytest.approx(500.0 * np.exp(0.3 * np.pi), rel=1e-3)
 
 
 def test_the_verdict_of_an_offset_is_its_largest_difference_from_the_closed_form() -> None:
