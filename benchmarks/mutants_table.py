@@ -26,7 +26,7 @@ class Mutant:
     @property
     def in_kernels(self) -> bool:
         """Whether it is in kernels, whose tests run without a compiler."""
-        return self.place.startswith(ROPE)
+        return self.place.startswith((ROPE, DRIVE))
 
 
 ROPE, DRIVE, FMI = "fmu_src/comprope/rope", "fmu_src/comprope/drive", "fmu_src/comprope/fmi"
@@ -369,10 +369,14 @@ MUTANTS = [
          f"{DRIVEN}::test_holding_torque_counts_every_compensation_rope"),
         ("counterweight_of_the_car_s_height", "p[HEIGHT] - start + vector[X_W]", "start + vector[X_W]",
          f"{DRIVEN}::test_nothing_moves_before_the_trip"),
-        ("taylor_without_its_factor", "R[w + k] / term", "R[w + k]", DESIGN),
-        ("boundary_at_the_next_point", "0.5 * (following + position)", "following", DESIGN),
-        ("tustin_without_its_half", "0.5 * p[SAMPLE_PERIOD] * integral", "p[SAMPLE_PERIOD] * integral", DESIGN),
-        ("growth_unweighted", "logarithm += weight * log(size)", "logarithm += log(size)", DESIGN),
+        ("taylor_without_its_factor", "R[w + k] / term", "R[w + k]",
+         f"{DESIGN}::test_the_exponential_is_scipys"),
+        ("boundary_at_the_next_point", "0.5 * (following + position)", "following",
+         f"{DESIGN}::test_gains_operating_points_and_sampled_matrices_are_those_of_python_control"),
+        ("tustin_without_its_half", "0.5 * p[SAMPLE_PERIOD] * integral", "p[SAMPLE_PERIOD] * integral",
+         f"{DESIGN}::test_the_largest_pole_is_that_of_python_control"),
+        ("growth_unweighted", "logarithm += weight * log(size)", "logarithm += log(size)",
+         f"{DESIGN}::test_the_spectral_radius_is_that_of_the_eigenvalues"),
         ("margin_of_the_other_side", "min(1.0 / gains[gains < 1.0]", "min(gains[gains < 1.0]",
          f"{SERVO}::test_gain_margins_are_where_stability_ends"),
         ("way_of_the_ramp", "return j * t * t * t / 6.0", "return j * t * t * t / 3.0", TRIP),
