@@ -111,8 +111,8 @@ def test_a_new_campaign_from_a_data_sheet_states_how_well_the_plant_is_known(tmp
 def test_a_model_is_asked_for_where_none_is_named(tmp_path, run):
     answers = {
         "Model of the elevator": ["13 mm 8x19", "16 mm 8x19-FC"], "elevator: travel": ["15"], "elevator: sheave axle": ["1.2"],
-        "elevator: ropes": ["4"], "elevator: mass": ["480"], "elevator: radius": ["0.4"],
-        "elevator: a sensor": ["cw_low counterweight", "cw_low counterweight 0.5", "-"], "up.csv: mass": [""],
+        "elevator: ropes": ["2.5", "4"], "elevator: mass": ["480"], "elevator: radius": ["0.4"],
+        "elevator: a sensor": ["cw_low counterweight", "cw_low left 0.5", "cw_low counterweight 0.5", "-"], "up.csv: mass": [""],
     }  # fmt: skip
 
     def ask(question: str, default: str) -> str:

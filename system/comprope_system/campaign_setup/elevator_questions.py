@@ -3,9 +3,11 @@
 import re
 from typing import Any
 
+from pydantic import ValidationError
+
 from comprope.errors import InputError
 from comprope.rope.parameters import Sensor, Shaft, Sheave
-from comprope.validation_messages import accepted
+from comprope.validation_messages import accepted, validation_problems
 
 from ..measurements.files.raw_table import printable
 from ..presets import model_path, names
@@ -40,7 +42,7 @@ def _shaft_and_sheave(ask: Ask) -> dict[str, Any]:
     height = asked_number(WHERE, Shaft, "height", "travel from bottom to top landing", TYPICAL["height"], ask)
     pit = asked_number(WHERE, Shaft, "pit", "sheave axle below the rope's end at the bottom landing", TYPICAL["pit"], ask)
     ropes = asked_number(WHERE, Sheave, "ropes", "ropes on the sheave", 1.0, ask)
-    mass = asked_number(WHERE, Sheave, "mass", f"mass of the sheave, {share_of(ropes)}", TYPICAL["mass"], ask)
+    mass = asked_number(WHERE, Sheave, "mass", f"mass of the sheave, {share_of(ropes)}", TYPICAL["mass"] * ropes, ask)
     radius = asked_number(
         WHERE, Sheave, "radius", "radius of the sheave to the rope's centre line", 0.5 * TYPICAL["diameter"], ask
     )
@@ -68,7 +70,10 @@ def _sensor(answer: str) -> dict[str, Any] | None:
     if len(words) != 3:
         raise InputError(f"{printable(answer)}: a name, car or counterweight, and a height are accepted")
     try:
-        height = float(words[2])
+        table = {"name": words[0], "side": words[1], "height": float(words[2])}
+        Sensor.model_validate(table)
+    except ValidationError as error:
+        raise InputError("; ".join(validation_problems(error, Sensor))) from None
     except ValueError:
         raise InputError(f"{printable(answer)}: {accepted(Sensor, 'height')}") from None
-    return {"name": words[0], "side": words[1], "height": height}
+    return table

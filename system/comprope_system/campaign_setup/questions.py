@@ -17,6 +17,7 @@ from .column_roles import ANSWERED, GUESS, SURE, Role
 Ask = Callable[[str, str], str]
 Answer = TypeVar("Answer")
 LEFT_OUT = "-"
+WHOLE = ("ropes",)  # parameters that are counted
 ATTEMPTS = 3  # answers to a question until the command gives up
 
 
@@ -97,8 +98,9 @@ def asked_number(where: str, component: type[Component], name: str, what: str, d
             value = float(answer)
         except ValueError:
             value = float("nan")
-        if not limits.minimum <= value <= limits.maximum:
-            accepted = f"a number from {limits.minimum:g} to {limits.maximum:g}{unit} is accepted"
+        if not limits.minimum <= value <= limits.maximum or (name in WHOLE and value != round(value)):
+            kind = "whole number" if name in WHOLE else "number"
+            accepted = f"a {kind} from {limits.minimum:g} to {limits.maximum:g}{unit} is accepted"
             raise InputError(f"{where}: {key} = {printable(answer)}: {accepted}")
         return value
 
