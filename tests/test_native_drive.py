@@ -138,6 +138,21 @@ def test_tensions_that_come_with_the_first_step_belong_to_the_equilibrium(pair: 
     assert pair.instance.getReal([at])[0] == 0.0
 
 
+@pytest.mark.parametrize("last", [1e-5, 1e-7, 1e-9, 1e-12, 4e-14])
+def test_outputs_are_continuous_in_the_length_of_the_last_step(pair: DrivePair, last: float) -> None:
+    """Except for the torque, which is that of the controller's last sample."""
+    pair.start(dict(ROPES))
+    for _ in range(150):
+        pair.do_step(0.01)
+    continuous = [one for one in drive().of_role("output") if one.kind == "real" and one.name != "motor_torque"]
+    outputs = [pair.references[one.name] for one in continuous]
+    before = pair.instance.getReal(outputs)
+    pair.do_step(last)
+    pair.get_all()
+    assert pair.instance.getReal(outputs) == pytest.approx(before, abs=10.0 * last + 1e-12)  # 10 m/s, m/s2 and m/s3
+    assert pair.refusals == 0
+
+
 def test_the_same_bits_in_fmi_3_and_the_reference_result(fmu: Path, tmp_path: Path) -> None:
     with zipfile.ZipFile(fmu) as archive:
         expected = read_csv(archive.extract(OUTPUT_FILE, tmp_path))
