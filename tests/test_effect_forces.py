@@ -125,7 +125,7 @@ def test_effect_moves_the_ends_as_its_formula_says(effect: str, changes: dict[st
 
 
 def test_every_effect_is_compared_with_a_formula() -> None:
-    assert {"building_sway", "attachment_offset", "sheave_eccentricity", "end_stops", *FORMULAS} == set(REGISTRY)
+    assert {"building_sway", "attachment_offset", "sheave_eccentricity", "end_stops", "shaft_walls", *FORMULAS} == set(REGISTRY)
 
 
 SHAFT = {"shaft.height": 4.0, "rope.bending_stiffness": 2.0}

@@ -165,4 +165,5 @@ def test_the_order_of_effects_stays() -> None:
     assert built_in == [
         "air_drag", "shaft_airflow", "bending_hysteresis", "intrinsic_curvature", "building_sway", "attachment_offset",
         "sheave_eccentricity", "bearing_friction", "guide_friction", "sheave_damper", "end_stops", "tie_down",
+            "shaft_walls",
     ]  # fmt: skip

@@ -13,7 +13,7 @@ from ..parameters import Base
 # The order of these modules is that of the effects in the parameter vector and among the FMU's variables, whose value
 # references hosts keep: a new effect comes last.
 from . import air_drag, bending_hysteresis, intrinsic_curvature, end_displacement, sheave_eccentricity, sheave_friction
-from . import end_stops, tie_down
+from . import end_stops, tie_down, shaft_walls
 # isort: on
 
 from . import user_effects
@@ -21,8 +21,8 @@ from .base import HOOKS, INSTRUMENT, REGISTRY, Effect, acts, register
 
 __all__ = [
     "HOOKS", "INSTRUMENT", "REGISTRY", "Effect", "RopeModel", "acts", "air_drag", "bending_hysteresis", "end_displacement",
-    "end_stops", "intrinsic_curvature", "model_type", "names_of", "register", "sheave_eccentricity", "sheave_friction",
-    "tie_down", "user_effects",
+    "end_stops", "intrinsic_curvature", "model_type", "names_of", "register", "shaft_walls", "sheave_eccentricity",
+    "sheave_friction", "tie_down", "user_effects",
 ]  # fmt: skip
 
 class RopeModel(Base):
