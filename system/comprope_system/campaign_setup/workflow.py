@@ -12,6 +12,7 @@ from ..measurements.files.raw_table import printable
 from ..measurements.files.reader import require_regular_file
 from .campaign_text import campaign_text
 from .column_matching import roles
+from .column_roles import Role
 from .corrections import Corrections, corrected, require_runs
 from .model_choice import choose_model, copied
 from .questions import Ask, asked_changes, asked_role, asked_start, without_guess
@@ -53,10 +54,7 @@ def new(
     loaded, remarks = chosen.model, list(chosen.remarks)
     groups = grouped(folder, [[copied(one, folder) for one in together] for together in stated])
     surveyed = survey(folder, groups, loaded, known.car)
-    found = roles(surveyed, loaded)
-    found = {name: asked_role(name, role, loaded, ask) if ask else without_guess(role) for name, role in found.items()}
-    found = corrected(found, known.columns, loaded)
-    require_runs(known, [run.file for run in surveyed], loaded)
+    found = _roles(surveyed, loaded, ask, known)
     used = {column: role for column, role in found.items() if role.quantity}
     channels = [(column, role, noise(surveyed, column, role)) for column, role in used.items()]
     if not channels:
@@ -68,13 +66,27 @@ def new(
     tables = _tables(surveyed) | {"plant": {key: {"relative": one} for key, one in chosen.tolerances.items()}}
     with atomic_write(path) as temporary:
         temporary.write_text(campaign_text(folder.resolve().name, chosen.file, tables, channels, runs), "utf-8")
-    remarks += [f"{run.file}: {run.rest:.2g} s at rest before the trip; references at rest need {SHORT_REST:g} s"
-                for run in surveyed if run.trip is not None and run.rest < SHORT_REST]  # fmt: skip
-    remarks += [sentence for run in surveyed for sentence in run.unread]
+    remarks += _remarks(surveyed)
     if not ask and not known.changes:
         remarks.append(f"the sheave of the model, {loaded.sheave.mass:g} kg, is taken in every run; {SHEAVE_OF_RUN}")
     parts = {run.file: run.group.others for run in surveyed}
     return NewCampaign(path, surveyed[0].car.column, found, by_file, parts, tuple(remarks), check(path))
+
+
+def _roles(runs: Sequence[SurveyedRun], model: RopeModel, ask: Ask | None, known: Corrections) -> dict[str, Role]:
+    """The role of each column as found, asked for and corrected; raises `InputError` for corrections that cannot be."""
+    found = roles(runs, model)
+    found = {name: asked_role(name, role, model, ask) if ask else without_guess(role) for name, role in found.items()}
+    require_runs(known, [run.file for run in runs], model)
+    return corrected(found, known.columns, model)
+
+
+def _remarks(runs: Sequence[SurveyedRun]) -> list[str]:
+    """Sentences about short rests, and columns that nearly hold numbers."""
+    short = [run for run in runs if run.trip is not None and run.rest < SHORT_REST]
+    need = f"references at rest need {SHORT_REST:g} s"
+    rests = [f"{run.file}: {run.rest:.2g} s at rest before the trip; {need}" for run in short]
+    return [*rests, *(sentence for run in runs for sentence in run.unread)]
 
 
 def _answers(run: SurveyedRun, model: RopeModel, ask: Ask | None, stated: Mapping[str, Mapping[str, float]]) -> Answers:
