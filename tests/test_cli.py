@@ -91,7 +91,7 @@ BAD = [
     (["tower50", "--set", "sheave.mass"], "--set sheave.mass: KEY=VALUE is accepted"),
     (["tower50", "--set", "servo.x=1"], "drive: servo.x = 1: unknown key; accepted are position_bandwidth"),
     (["tower50", "--speed", "-1"], "drive: profile.speed = -1.0: a number from 0.01 to 25 m/s is accepted"),
-    (["tower50", "--to", "60"], "drive: trip.destination = 60.0 m: accepted is 0 to shaft.height = 50.0 m"),
+    (["tower50", "--to", "60"], "drive: trip.destination = 60 m: accepted is 0 to shaft.height = 50 m"),
     (["tower50", "--drive", "absent.toml"], "absent.toml: cannot be read"),
     (["tower50", "--car", "absent.csv"], "absent.csv: cannot be read"),
     (["tower50", "--step", "0"], "communication step = 0 s: above 0"),

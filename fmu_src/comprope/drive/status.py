@@ -8,7 +8,8 @@ from ..kernels.status import Messages
     COUNTERWEIGHT_NOT_FINITE, CALL_OUTSIDE, TOO_EARLY, TOO_WEAK, UNSTABLE, UNSTABLE_AT_TWO, UNSTABLE_AT_THREE, LEFT_SHAFT,
     TOO_MANY_PERIODS,
 ) = range(1, 18)  # fmt: skip
-_STOPS = "accepted is 0 to shaft.height = %g m"
+# Nine digits where a value has just passed another one, so that the sentence tells them apart.
+_STOPS = "accepted is 0 to shaft.height = %.9g m"
 _UNSTABLE = (
     "servo.position_bandwidth = %g rad/s, servo.speed_bandwidth = %g rad/s, servo.speed_damping = %g, servo.sample_period = "
     "%g s: unstable with the car at {}; gains are accepted that keep the loop stable, such as a lower bandwidth and "
@@ -16,22 +17,22 @@ _UNSTABLE = (
 )
 # Of one component, whose name the FMU puts in front; pydantic does likewise.
 COMPONENT_TEXTS: dict[int, tuple[str, str, int]] = {
-    SMOOTHING_TOO_SHORT: ("profile", "smoothing = %g s: accepted is 0 (none) or %g to 20 s", 2),
+    SMOOTHING_TOO_SHORT: ("profile", "smoothing = %.9g s: accepted is 0 (none) or %.9g to 20 s", 2),
     DOES_NOT_STOP: ("curve", "the sum of a1 to a19 is %.6g: accepted is 0, so that the car stops", 1),
     REVERSES: ("curve", "a1, a1 + a2 and so on: no sum below 0 is accepted, so that the car never reverses", 0),
-    NOT_WHOLE: ("shaper", "impulses = %g: accepted is 1, 2 or 3", 1),
+    NOT_WHOLE: ("shaper", "impulses = %.15g: accepted is 1, 2 or 3", 1),
 }
 MESSAGES: Messages = {
     status: (InputError, f"{component}: {text}", count) for status, (component, text, count) in COMPONENT_TEXTS.items()
 } | {
-    START_OUTSIDE: (InputError, f"trip.start_position = %g m: {_STOPS}", 2),
-    DESTINATION_OUTSIDE: (InputError, f"trip.destination = %g m: {_STOPS}", 2),
-    BOTH_OUTSIDE: (InputError, f"trip.start_position = %g m and trip.destination = %g m: {_STOPS}", 3),
-    CAR_NOT_FINITE: (InputError, "car_end_tension = %g N: a finite number is accepted", 1),
-    COUNTERWEIGHT_NOT_FINITE: (InputError, "counterweight_end_tension = %g N: a finite number is accepted", 1),
-    CALL_OUTSIDE: (InputError, "destination = %g m: 0 to shaft.height = %g m is accepted", 2),
-    TOO_EARLY: (InputError, "trip.start_time = %g s: the start of the simulation, %g s, or later is accepted", 2),
-    TOO_WEAK: (InputError, "servo.torque_limit = %g N.m: more than the %.6g N.m that hold the car initially is accepted", 2),
+    START_OUTSIDE: (InputError, f"trip.start_position = %.9g m: {_STOPS}", 2),
+    DESTINATION_OUTSIDE: (InputError, f"trip.destination = %.9g m: {_STOPS}", 2),
+    BOTH_OUTSIDE: (InputError, f"trip.start_position = %.9g m and trip.destination = %.9g m: {_STOPS}", 3),
+    CAR_NOT_FINITE: (InputError, "car_end_tension = %.9g N: a finite number is accepted", 1),
+    COUNTERWEIGHT_NOT_FINITE: (InputError, "counterweight_end_tension = %.9g N: a finite number is accepted", 1),
+    CALL_OUTSIDE: (InputError, "destination = %.9g m: 0 to shaft.height = %.9g m is accepted", 2),
+    TOO_EARLY: (InputError, "trip.start_time = %.9g s: the start of the simulation, %.9g s, or later is accepted", 2),
+    TOO_WEAK: (InputError, "servo.torque_limit = %.9g N.m: more than the %.9g N.m that hold the car initially is accepted", 2),
     UNSTABLE: (InputError, _UNSTABLE.format("%g m"), 5),
     UNSTABLE_AT_TWO: (InputError, _UNSTABLE.format("%g m and %g m"), 6),
     UNSTABLE_AT_THREE: (InputError, _UNSTABLE.format("%g m and %g m and %g m"), 7),
@@ -43,7 +44,7 @@ MESSAGES: Messages = {
     ),
     TOO_MANY_PERIODS: (
         InputError,
-        "communication step = %g s: at most %g s is accepted, a million times servo.sample_period",
+        "communication step = %.9g s: at most %.9g s is accepted, a million times servo.sample_period",
         2,
     ),
 }
