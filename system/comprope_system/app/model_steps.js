@@ -59,9 +59,31 @@ function runningJob(box, job) {
   const left = job.seconds_left === null ? "" : `, about ${duration(job.seconds_left)} left`;
   make(box, "p", { class: "soft" }, `${job.done} of about ${job.total} replays, ${duration(job.seconds)}${left}`);
   make(make(box, "p"), "button", { type: "button", id: "cancel" }, "Cancel").addEventListener("click", () => ask("DELETE", "/job"));
+  leaders(box, job.stages);
   const list = make(box, "ol", { "aria-label": "stages so far", tabindex: 0 });
   for (const one of job.stages) make(list, "li", {}, one.replaceAll("_", " "));
   list.scrollTop = list.scrollHeight;
+}
+
+// The effects that a diagnosis has fitted so far, the best first: of some it tells what they leave unexplained.
+function leaders(box, stages) {
+  const fits = stages.map((one) => one.match(/^(.+): fitted, reduced chi-square (.+)$/)).filter(Boolean);
+  if (!fits.length) return;
+  const best = [...new Map(fits.map(([, name, left]) => [name, +left]).sort((a, b) => b[1] - a[1]))].sort((a, b) => a[1] - b[1]);
+  const body = table(box, ["effects fitted so far", "reduced chi-square (1: noise alone)"]);
+  for (const [name, left] of best) row(body, [name.replaceAll("_", " "), `${left}`]);
+}
+
+function table(parent, names) {
+  const found = make(parent, "table"), head = make(make(found, "thead"), "tr");
+  for (const one of names) make(head, "th", {}, one);
+  return make(found, "tbody");
+}
+
+function row(body, cells) {
+  const line = make(body, "tr");
+  for (const one of cells) make(line, "td", {}, one);
+  return line;
 }
 
 // -- true replays of what a slider was moved to ---------------------------------------------------------

@@ -163,6 +163,8 @@ def fit_on_full_model(context: FitContext, one: ScreenedHypothesis, found: Seque
     except SimulationError:
         absent = np.concatenate([baseline.coefficients[: len(PLANT_PARAMETERS)], np.zeros(len(one.hypothesis.directions))])
         fitted = replace(baseline, hypothesis=one.hypothesis, coefficients=absent)
+    left = fitted.chi_square / max(len(problem.data), 1)
+    context.report_progress(f"{one.hypothesis.effect}: fitted, reduced chi-square {left:.3g}")
     return CandidateFit(one, fitted, True)
 
 
