@@ -47,6 +47,7 @@ def serve(campaign: Path, port: int = 0, *, browser: bool = True) -> None:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listening.bind((LOOPBACK, port))
+            listening.listen()  # who opens the address at once waits until it is served
         except OSError as error:
             raise InputError(f"--port {port}: {error.strerror}; another number is accepted, or 0 for any free one") from None
         port, token = listening.getsockname()[1], secrets.token_urlsafe(TOKEN_BYTES)
