@@ -14,26 +14,12 @@ import tempfile
 import time
 from pathlib import Path
 
-import numpy as np
-from pages import BROWSER, COLOURS, DOCS
+from pages import BROWSER, COLOURS, DOCS, frame_times
 from PIL import Image
 from playwright.sync_api import Page, expect, sync_playwright
 
 WIDTH, HEIGHT = 1000, 900  # of the pictures, in pixels
 PATIENCE = 1_200_000.0  # ms for a computation
-MOVES = 100
-MOVE = """async (count) => {
-  const figure = document.querySelector("#preview"), input = figure.querySelector(".slider input");
-  const [low, high] = [+input.min, +input.max];
-  const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-  figure.frames = [];
-  for (let k = 0; k < count; k += 1) {
-    input.value = low + ((high - low) * (k % 50)) / 50;
-    input.dispatchEvent(new Event("input"));
-    await frame();
-  }
-  return figure.frames;
-}"""
 
 
 class Way:
@@ -100,8 +86,7 @@ def compare_and_diagnose(way: Way) -> None:
     expect(report.locator(".card")).to_be_visible(timeout=PATIENCE)
     way.took("diagnosed")
     frame = next(one for one in page.frames if "/report/diagnose" in one.url)
-    times = frame.evaluate(MOVE, MOVES)
-    print(f"| slider to frame | median {np.median(times):.0f} ms, 95 % {np.percentile(times, 95):.0f} ms |", flush=True)
+    print(f"| from a slider to the frame | {frame_times(frame)} |", flush=True)
     slider = report.locator(".slider input").first
     slider.scroll_into_view_if_needed()
     way.begin = time.perf_counter()

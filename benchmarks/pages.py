@@ -14,8 +14,11 @@ import subprocess
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 from PIL import Image
+from playwright.sync_api import sync_playwright
 
 import comprope_system
 from comprope_system import DesignOptions, TuningOptions
@@ -25,6 +28,19 @@ WIDTH, HEIGHT, COLOURS = 1000, 1500, 96  # of a picture in pixels, and of its pa
 TIMED = """<script>
 addEventListener("load", () => setTimeout(() => { document.title = `opened ${performance.now()}`; }));
 </script></body>"""
+MOVES = 100  # of a slider
+MOVE = """async (count) => {
+  const figure = document.querySelector("#preview"), input = figure.querySelector(".slider input");
+  const [low, high] = [+input.min, +input.max];
+  const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  figure.frames = [];
+  for (let k = 0; k < count; k += 1) {
+    input.value = low + ((high - low) * (k % 50)) / 50;
+    input.dispatchEvent(new Event("input"));
+    await frame();
+  }
+  return figure.frames;
+}"""
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), "chromium")
 
 
@@ -42,6 +58,28 @@ def time_to_open(page: Path) -> float:
     return min(float(one[1]) for one in found if one) / 1e3
 
 
+
+
+
+def frame_times(frame: Any) -> str:
+    """Milliseconds from the movement of a slider until its frame has been drawn, of a page in playwright."""
+    times = frame.evaluate(MOVE, MOVES)
+    return f"median {np.median(times):.0f} ms, 95 % {np.percentile(times, 95):.0f} ms"
+
+
+def slider_times(page: Path) -> str:
+    """The same of a page that has sliders; nothing for others."""
+    if 'class="preview"' not in page.read_text(encoding="utf-8"):
+        return ""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox"])
+        shown = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
+        shown.goto(page.as_uri())
+        found = frame_times(shown)
+        browser.close()
+    return found
+
+
 def picture(page: Path, file: Path) -> None:
     """The first rows of a page as a PNG file of few colours."""
     shot = page.with_suffix(".png")
@@ -53,7 +91,7 @@ def picture(page: Path, file: Path) -> None:
 def report(name: str, page: Path, out: Path) -> None:
     """Print a row of the table and write the picture."""
     picture(page, out / "pages" / f"{name}.png")
-    print(f"| {name} | {page.stat().st_size / 1e6:.2f} MB | {time_to_open(page):.2f} s |", flush=True)
+    print(f"| {name} | {page.stat().st_size / 1e6:.2f} MB | {time_to_open(page):.2f} s | {slider_times(page)} |", flush=True)
 
 
 def makers(campaign: str, effect: str, out: Path) -> dict[str, Callable[[Path], None]]:
@@ -66,8 +104,8 @@ def makers(campaign: str, effect: str, out: Path) -> dict[str, Callable[[Path], 
 
     return {
         "trip": trip,
-        "compare": lambda page: comprope_system.compare(campaign).save_html(page),
-        "diagnose": lambda page: comprope_system.diagnose(campaign).save_html(page),
+        "compare": lambda page: comprope_system.compare(campaign, previews=True).save_html(page),
+        "diagnose": lambda page: comprope_system.diagnose(campaign, previews=True).save_html(page),
         "add": lambda page: comprope_system.add(campaign, effect).save_html(page),
         "design": lambda page: comprope_system.design("building200", DesignOptions(floors=9)).save_html(page),
         "tune": lambda page: comprope_system.tune("building200", TuningOptions(trips=("0:22",))).save_html(page),

@@ -128,6 +128,13 @@ def test_only_files_of_results_can_be_downloaded(client):
         assert client.get(f"{path}?token={TOKEN}").status_code in (403, 404)
 
 
+def test_the_commands_are_those_that_do_the_same(client, private):
+    for name in ("up.csv", "a b.csv", "tower.toml"):
+        put(client, name, b"x")
+    (command,) = client.get(f"/state?token={TOKEN}").json()["commands"]
+    assert command.startswith(f"comprope new {private} 'a b.csv' up.csv --model tower.toml")
+
+
 # -- nothing by halves -------------------------------------------------------------------------------------
 
 

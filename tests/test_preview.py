@@ -15,8 +15,12 @@ from comprope_system.identification.preview.interpolation import NodeLines
 from comprope_system.identification.preview.sliders import moved, sliders_of
 from comprope_system.identification.result.comparison import ComparisonResult
 from comprope_system.parallel.executors import threads
+from comprope_system.report.curves import BEFORE, MEASURED, MODEL, Curve, Curves, Group, Panel
+from comprope_system.report.page import Section, save_page
+from comprope_system.report.preview import Preview, PreviewEffect, PreviewPanel, PreviewRun, PreviewSlider
 
 from . import virtual_elevator
+from .browser import BROWSER
 from .browser_pages import needs_chromium, opened
 
 LINES = NodeLines(((0.0, 1.0, 2.0, 3.5), (-1.0, 0.0, 1.0, 2.0)), (2, 1))
@@ -113,6 +117,24 @@ def test_more_than_two_parameters_are_moved_effect_by_effect():
         without.effects["effects.bearing_friction.coulomb_torque"] == without.effects["effects.bearing_friction.viscous"] == 0.0
     )
     assert without.effects["effects.attachment_offset.car"] == point.effects["effects.attachment_offset.car"]
+
+
+def test_a_page_of_many_long_runs_with_sliders_stays_below_3_mb(tmp_path):
+    random = np.random.default_rng(1)
+    place, rows = np.arange(30_000) * 0.01, random.standard_normal((21, 30_000))
+    curves = [Curve(n, s, v) for n, s, v in zip("mba", (MEASURED, BEFORE, MODEL), rows, strict=False)]
+    groups = [Group(str(k), str(k), [Panel(str(j), "mm", place, curves) for j in range(10)]) for k in range(15)]
+    panels = [PreviewPanel(str(j), "mm", place, rows[0], rows, rows @ rows.T) for j in range(10)]
+    runs = [PreviewRun(str(k), "fit", panels, shown=k == 7) for k in range(15)]
+    sliders = [PreviewSlider(name, "mm", (0.0, 0.5, 1.0, 1.5), 2) for name in "uv"]
+    preview = Preview("preview", [PreviewEffect("a", sliders, runs)], {"fit": (0.5, 0.1)})
+    save_page(tmp_path / "long.html", "long", "", [Section("a", "A", [Curves("curves", groups), preview])])
+    assert 2e6 < (tmp_path / "long.html").stat().st_size < 3e6
+    assert 7 in preview.drawn and 0 < len(preview.drawn) < 15
+    assert "Not drawn" in (tmp_path / "long.html").read_text()
+    if BROWSER:
+        with opened((tmp_path / "long.html").as_uri()) as page:
+            assert page.locator(".preview output[data-role=fit]").text_content().endswith("%")
 
 
 # -- in a browser ------------------------------------------------------------------------------------------

@@ -96,15 +96,13 @@ class Routes:
     async def describe(self, request: Request) -> Response:
         """What the uploaded files are taken for, with corrections."""
         workspace, stated = self.state.workspace, await body(request)
-        found = await self.desk.run(
-            descriptions.describe, workspace.uploaded(), workspace.staged, workspace.campaign.name, stated
-        )
+        found = await self.desk.run(descriptions.describe, workspace.uploaded(), workspace.staged, workspace.name, stated)
         return JSONResponse(found)
 
     async def save(self, request: Request) -> Response:
         """Write the campaign that was described."""
         workspace = self.state.workspace
-        given = (workspace.staged, workspace.campaign.name, workspace.campaign)
+        given = (workspace.staged, workspace.name, workspace.campaign.absolute())
         return self._news_and(await asyncio.to_thread(descriptions.save_campaign, *given))
 
     async def run(self, request: Request) -> Response:

@@ -86,8 +86,7 @@ class State:
         workspace = self.workspace
         folder = shlex.quote(str(workspace.campaign))
         names = workspace.records()
-        uploads = [shlex.quote(one.name) for one in workspace.uploaded()]
-        found = [f"comprope new {folder} {' '.join(uploads)}"] if uploads else []
+        found = _new_command(folder, [one.name for one in workspace.uploaded()])
         found += [f"comprope check {folder}"] if workspace.exists else []
         found += [f"comprope compare {folder} --report compare.html"] if "compare" in names else []
         found += [f"comprope diagnose {folder} --report diagnose.html"] if "diagnose" in names else []
@@ -98,6 +97,13 @@ class State:
             if one[:4] == "add "
         ]
         return found + ([f"comprope improve {folder} {updated}"] if "improve" in names else [])
+
+
+def _new_command(folder: str, files: list[str]) -> list[str]:
+    """The command that describes the uploaded files, none without; corrections are in campaign.toml."""
+    models = [f" --model {shlex.quote(one)}" for one in files if one.endswith(".toml")]
+    runs = [one for one in files if not one.endswith(".toml")]
+    return [f"comprope new {folder} {shlex.join(runs)}{''.join(models)}  # then correct {folder}/campaign.toml"] if runs else []
 
 
 def effects(workspace: Workspace) -> list[str]:

@@ -29,8 +29,9 @@ class Workspace:
     """Folders and files of the app for one campaign folder."""
 
     def __init__(self, campaign: Path) -> None:
-        self.campaign = campaign.absolute()
-        key = hashlib.sha256(str(self.campaign).encode()).hexdigest()[:24]
+        self.campaign = campaign  # as it was given, which is how pages and commands name it
+        self.name = campaign.absolute().name
+        key = hashlib.sha256(str(campaign.absolute()).encode()).hexdigest()[:24]
         self.root = entry_folder("app", key)
         self.uploads, self.staged = self.root / "uploads", self.root / "staged"
         self.uploads.mkdir(exist_ok=True)

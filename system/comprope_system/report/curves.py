@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 MEASURED, BEFORE, MODEL = "measured", "before", "model"  # styles of curves; "0", "1" ... are those of equal curves
 EQUAL_STYLES = 8  # after which they repeat
-MAX_VALUES = 380_000  # in a page: 2 MB as text, so that the page stays below 3 MB
+MAX_VALUES = 280_000  # in a page: 1.5 MB as text, so that the page stays below 3 MB with a preview
 MIN_SAMPLES = 400  # of each curve, however many there are: about one for every second pixel
 GAP = 5.0  # intervals of sampling without a sample, above which a curve is interrupted
 

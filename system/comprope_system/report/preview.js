@@ -55,6 +55,7 @@
 
   // -- data -----------------------------------------------------------------------------------------
   function readPanel({ data, scales, form }) {
+    if (!data) return { form: form && new Float64Array(bytes(form)) };
     const size = new Float32Array(bytes(scales)), whole = new Int16Array(bytes(data)), count = whole.length / size.length;
     return { size, whole, count, form: form && new Float64Array(bytes(form)) };
   }
@@ -100,7 +101,10 @@
     constructor(figure) {
       this.figure = figure;
       this.data = JSON.parse(figure.querySelector("script.preview-data").textContent);
-      this.effects = this.data.effects.map((one) => ({ ...one, runs: one.runs.map((run) => ({ ...run, panels: run.panels.map(readPanel) })) }));
+      this.effects = this.data.effects.map((one) => {
+        const runs = one.runs.map((run) => ({ ...run, panels: run.panels.map(readPanel) }));
+        return { ...one, runs, drawn: runs.filter((run) => run.drawn) };
+      });
       this.curves = window.compropeCurves.get(this.data.curves);
       this.curves.drawn = () => this.draw();
       this.badge = figure.querySelector(".badge");
@@ -164,7 +168,7 @@
     _limits() {
       const lines = numbers(this.effect.sliders), width = 1 + lines.length, nodes = [...new Set(lines.flat())];
       this.curves.groups.forEach((group, r) => group.data.panels.forEach((_, p) => {
-        this.curves.limit(r, p, nodes.map((k) => curve(this.effect.runs[r].panels[p], new Array(nodes.length * width).fill(0).map((zero, j) => (j === k * width ? 1 : zero)))));
+        this.curves.limit(r, p, nodes.map((k) => curve(this.effect.drawn[r].panels[p], new Array(nodes.length * width).fill(0).map((zero, j) => (j === k * width ? 1 : zero)))));
       }));
     }
 
@@ -172,11 +176,12 @@
       const { nodes } = this.effect.sliders[k], edges = [nodes[0], nodes[nodes.length - 1]].sort((a, b) => a - b);
       this.at[k] = Math.min(Math.max(value, edges[0]), edges[1]);
       this.begun ??= performance.now();
-      this.waiting ??= requestAnimationFrame(() => { this.waiting = undefined; this.draw(); this.timed(); });
+      this.waiting ??= requestAnimationFrame(() => { this.waiting = undefined; this.draw(); setTimeout(() => this.timed()); });
     }
 
-    // Milliseconds from the movement of the hand to the drawn frame, for measurements.
+    // Milliseconds from the movement of the hand until its frame has been drawn, for measurements.
     timed() {
+      if (this.begun === undefined) return;
       (this.figure.frames ??= []).push(performance.now() - this.begun);
       this.begun = undefined;
     }
@@ -219,7 +224,7 @@
         noise.style.left = place(this.data.errors[role][1]);
       }
       this.curves.groups.forEach((group, r) => {
-        if (!group.box.hidden) group.data.panels.forEach((_, p) => this.curves.replace(r, p, curve(this.effect.runs[r].panels[p], by)));
+        if (!group.box.hidden) group.data.panels.forEach((_, p) => this.curves.replace(r, p, curve(this.effect.drawn[r].panels[p], by)));
       });
     }
   }

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from .curves import MEASURED, MODEL, Curve, Curves, Floats, Group, Panel, Span, encode, with_gaps
 
-MAX_BYTES = 800_000  # of the data of all previews of a page, as text
+MAX_BYTES = 500_000  # of the data of all previews of a page, as text
 FEWEST, MOST = 120, 600  # samples of each curve
 LEVELS = 32_000  # of a curve between zero and its largest value; it takes two bytes a sample
 MISSING = -32_768
-TEXT = 4.0 / 3.0  # characters for each byte in base64
+BYTES = 2.0 * 4.0 / 3.0  # of a sample as text in base64
 
 
 @dataclass(frozen=True)
@@ -74,19 +74,37 @@ class Preview:
     caption: str = ""
 
     @cached_property
+    def drawn(self) -> list[int]:
+        """Numbers of the runs whose curves are drawn, so that the page stays small: the one shown first, then the others."""
+        order = sorted(range(len(self.effects[0].runs)), key=lambda k: not self.effects[0].runs[k].shown)
+        sizes = np.cumsum([FEWEST * self._rows(k) * BYTES for k in order])
+        return sorted(order[: max(1, int(np.searchsorted(sizes, MAX_BYTES, "right")))])
+
+    @cached_property
     def samples(self) -> int:
-        """Of each curve, so that the page stays small."""
-        rows = sum(len(panel.data) + 2 for effect in self.effects for run in effect.runs for panel in run.panels)
-        return int(np.clip(MAX_BYTES / (2.0 * TEXT * max(rows, 1)), FEWEST, MOST))
+        """Of each curve that is drawn."""
+        rows = sum(self._rows(k) for k in self.drawn)
+        return int(np.clip(MAX_BYTES / (BYTES * max(rows, 1)), FEWEST, MOST))
+
+    def _rows(self, k: int) -> int:
+        """Rows of data of a run, of all effects together, with those of its own curves, which take twice as much."""
+        return sum(len(panel.data) for effect in self.effects for panel in effect.runs[k].panels) + 6 * len(
+            self.effects[0].runs[k].panels
+        )
 
     @cached_property
     def curves(self) -> Curves:
         """The curves of the first effect at its present values."""
         groups = [
             Group(run.file, f"{run.file} ({run.role})", [self._panel(one) for one in run.panels], run.spans, run.shown)
-            for run in self.effects[0].runs
+            for run in (self.effects[0].runs[k] for k in self.drawn)
         ]
-        return Curves(f"{self.name}_curves", groups)
+        return Curves(f"{self.name}_curves", groups, caption=self._left_out())
+
+    def _left_out(self) -> str:
+        """Which runs are not drawn."""
+        files = [run.file for k, run in enumerate(self.effects[0].runs) if k not in self.drawn]
+        return f"Not drawn, so that the page stays small, but part of the errors: {', '.join(files)}." if files else ""
 
     def _panel(self, one: PreviewPanel) -> Panel:
         kept = self._kept(one)
@@ -107,12 +125,14 @@ class Preview:
         return {"curves": self.curves.name, "errors": errors, "effects": [self._effect(one) for one in self.effects]}
 
     def _effect(self, effect: PreviewEffect) -> dict[str, Any]:
-        first = self.effects[0]
-        places = [[(panel.place, self._kept(panel)) for panel in run.panels] for run in first.runs]
-        runs = [
-            {"role": run.role, "panels": [_packed(one, *place) for one, place in zip(run.panels, own, strict=True)]}
-            for run, own in zip(effect.runs, places, strict=True)
-        ]
+        runs = []
+        for k, (run, first) in enumerate(zip(effect.runs, self.effects[0].runs, strict=True)):
+            drawn = k in self.drawn
+            panels = [
+                _packed(one, like.place, self._kept(like) if drawn else None)
+                for one, like in zip(run.panels, first.panels, strict=True)
+            ]
+            runs.append({"role": run.role, "drawn": drawn, "panels": panels})
         sliders = [
             {"name": one.name, "unit": one.unit, "nodes": [float(x) for x in one.nodes], "centre": one.centre}
             for one in effect.sliders
@@ -120,13 +140,16 @@ class Preview:
         return {"name": effect.name, "sliders": sliders, "runs": runs}
 
 
-def _packed(one: PreviewPanel, place: Floats, kept: NDArray[np.int64]) -> dict[str, Any]:
-    """Data of a channel as text: each row as 16-bit integers with a scale, with the same gaps as the curves."""
+def _packed(one: PreviewPanel, place: Floats, kept: NDArray[np.int64] | None) -> dict[str, Any]:
+    """Data of a channel as text, none if not drawn: each row as 16-bit integers with a scale, and the gaps of the curves."""
+    form = None if one.form is None else _packed_form(one.form)
+    if kept is None:
+        return {"form": form}
     _, rows = with_gaps(place[kept], [row[kept] for row in one.data])
     scales = [float(np.nanmax(np.abs(row), initial=0.0)) / LEVELS or 1.0 for row in rows]
     whole = [np.where(np.isfinite(row), np.round(row / scale), MISSING) for row, scale in zip(rows, scales, strict=True)]
     text = base64.b64encode(np.asarray(whole, "<i2").tobytes()).decode()
-    return {"data": text, "scales": encode(np.array(scales)), "form": None if one.form is None else _packed_form(one.form)}
+    return {"data": text, "scales": encode(np.array(scales)), "form": form}
 
 
 def _packed_form(form: Floats) -> str:
