@@ -87,7 +87,7 @@ def diagnose(
 ) -> Diagnosis:
     """Rank all effects as explanations of the fit runs of a campaign, except those in `without`.
 
-    `base` has the effects that are in the model already, and plant coefficients to begin with.
+    `base` has the effects that are in the model already, and plant coefficients of an earlier fit to begin with.
     """
     origin = base or ParameterPoint()
     runs = campaign.of_role("fit")
@@ -96,7 +96,9 @@ def diagnose(
     problem = replace(build_problem(campaign, runs, executor, nominal), ruled_out=frozenset(without))
     report_progress("plant parameters")
     start = np.array([origin.plant.get(one.name, 0.0) for one in PLANT_PARAMETERS])
-    rough, on_coarse_mesh, baseline = fit_from_file(problem, None, start, origin, nominal)
+    rough, on_coarse_mesh, baseline = fit_from_file(
+        problem, None, start, origin, nominal, search_mass=not start.any()
+    )
     initial_fit = replace(on_coarse_mesh, predictions=nominal)
     context = FitContext(problem, problem.coarsened(baseline.point, baseline.predictions), origin, baseline, report_progress)
     report_progress("linear screening of all effects")

@@ -27,15 +27,24 @@ class FitFromFile(NamedTuple):
 
 
 def fit_from_file(
-    problem: LeastSquaresProblem, hypothesis: Hypothesis | None, start: Floats, base: ParameterPoint, nominal: Predictions
+    problem: LeastSquaresProblem,
+    hypothesis: Hypothesis | None,
+    start: Floats,
+    base: ParameterPoint,
+    nominal: Predictions,
+    *,
+    search_mass: bool = True,
 ) -> FitFromFile:
-    """Fit from the coefficients `start` (k,), at which the full mesh predicts `nominal`; the rope's mass is searched as well.
+    """Fit from the coefficients `start` (k,), at which the full mesh predicts `nominal`, or from a better mass of the rope.
 
     Raises `SimulationError` if the model cannot be simulated there.
     """
     rough = problem.coarsened(point_at(hypothesis, list(start), base), nominal)
     initial = evaluate(rough, hypothesis, start, base)
-    fitted = fit_with_mass_search(rough, initial, base)
+    if search_mass:
+        fitted = fit_with_mass_search(rough, initial, base)
+    else:
+        fitted = gauss_newton(rough, hypothesis, start, base, initial_fit=initial)
     if rough.coarse != problem.coarse:
         fitted = fit_on_full_mesh(problem, fitted, base, thorough=False)
     return FitFromFile(rough, initial, fitted)
