@@ -279,10 +279,10 @@ def test_an_effect_with_its_shape_freed_is_one_step(monkeypatch):
     whole = combine(effect, *shape_hypotheses((effect,), 9.0))
     coefficients = np.arange(len(PLANT_PARAMETERS) + 2.0)
     own = [float(one) for one in coefficients[len(PLANT_PARAMETERS) :]]
-    best = SimpleNamespace(hypothesis=whole, coefficients=coefficients, effect_coefficients=own, chi_square=1.0)
+    best = SimpleNamespace(hypothesis=whole, coefficients=coefficients, effect_coefficients=own)
     found = SimpleNamespace(ranking=[SimpleNamespace(fitted=best)])
     added = []
-    monkeypatch.setattr(steps, "fit_with_effect", lambda baseline, new, start, known, expected: added.append((new, start)))
+    monkeypatch.setattr(steps, "fit_with_effect", lambda baseline, new, start, known, search: added.append((new, start)))
     assert [name for name, _ in steps._add_each(None, found, None, lambda _: None)] == ["bending_hysteresis"]
     ((new, start),) = added
     assert new.parts == whole.parts and np.array_equal(start, coefficients)

@@ -155,12 +155,12 @@ def _best_start(baseline: BaselineFit, tried: list[Hypothesis]) -> tuple[Hypothe
 
 
 def fit_with_effect(
-    baseline: BaselineFit, new: Hypothesis, start: Floats, known: FitResult, expected: float = 0.0
+    baseline: BaselineFit, new: Hypothesis, start: Floats, known: FitResult, *, search: bool = True
 ) -> FitResult:
     """Fit a new effect with the plant parameters and the effects of `known`; `start`: plant, new, and perhaps known ones.
 
-    No other start is tried where the chi-square there is near the `expected` one. Parameters that change the shape of the
-    effect's response are then freed as well: a frequency, a yield curvature.
+    Without `search` no other start is tried, as where a diagnosis has fitted the effect already. Parameters that change the shape
+    of the effect's response are then freed as well: a frequency, a yield curvature.
     """
     old = [part for part, _ in known.hypothesis.split_coefficients(known.effect_coefficients)] if known.hypothesis else []
     count = len(PLANT_PARAMETERS) + len(new.directions)
@@ -168,8 +168,10 @@ def fit_with_effect(
     begin = np.array(begin)
     begin[[k for k, one in enumerate(PLANT_PARAMETERS) if one.name in baseline.problem.held]] = 0.0
     whole = combine(new, *old)
-    rough, base = baseline.problem.coarsened(known.point, known.predictions), ParameterPoint()
-    begin = best_initial_guess(rough, whole, begin, base, baseline.fitted, len(new.directions), expected)
+    base = ParameterPoint()
+    if search:
+        rough = baseline.problem.coarsened(known.point, known.predictions)
+        begin = best_initial_guess(rough, whole, begin, base, baseline.fitted, len(new.directions))
     fitted = search_rope_mass(baseline.problem, fit_coarse_to_fine(baseline.problem, whole, begin, base), base)
     return _shaped(baseline, new, old, fitted)
 

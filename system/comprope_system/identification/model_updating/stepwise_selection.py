@@ -131,8 +131,10 @@ def _add_each(
     """Fits with the effects of a verdict added one after the other, so that each shows its share in the reduction."""
     best = found.ranking[0].fitted
     plant = best.coefficients[: len(PLANT_PARAMETERS)]
-    for name, parts in components_by_effect(best.hypothesis, best.effect_coefficients).items():
+    components = components_by_effect(best.hypothesis, best.effect_coefficients)
+    for name, parts in components.items():
         report_progress(f"fitting {name} with all other effects")
         start = np.concatenate([plant, *(own for _, own in parts)])
-        fitted = fit_with_effect(baseline, combine(*(part for part, _ in parts)), start, fitted, expected=best.chi_square)
+        new = combine(*(part for part, _ in parts))
+        fitted = fit_with_effect(baseline, new, start, fitted, search=len(components) > 1)
         yield name, fitted
