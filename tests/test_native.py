@@ -140,6 +140,25 @@ def test_same_bits_as_just_in_time(pair: Pair, values: dict[str, float], switche
     assert pair.refusals == 0
 
 
+def test_same_bits_with_slack_rope_stops_and_walls(pair: Pair) -> None:
+    """Both ends go down faster than the sheave falls, and up again."""
+    values = {
+        "effects.end_stops.stiffness": 2e6, "effects.end_stops.damping": 2e4, "effects.end_stops.down": 0.01,
+        "effects.tie_down.locking_damping": 1e4, "effects.tie_down.locking_speed": 0.1, "sheave.limit_switch": 0.005,
+        "effects.shaft_walls.stiffness": 1e4, "effects.shaft_walls.distance": 0.02, "rope.element_length": 0.1,
+    }  # fmt: skip
+    pair.set_reals([*values, "car_position", "counterweight_position"], [*values.values(), 25.0, 25.0])
+    pair.enter_initialization()
+    pair.exit_initialization()
+    for lowered in (0.004, 0.012, *[0.016] * 10, 0.008, *[0.0] * 8):
+        pair.set_reals(["car_position", "counterweight_position"], [25.0 - lowered] * 2)
+        pair.do_step(0.01)
+    pair.get_all()
+    seen = pair.oracle.instance.simulator.outputs()
+    assert seen["slack_duration"] > 0.0 and seen["limit_switch"] and seen["peak_element_tension"] > 1000.0
+    assert pair.refusals == 0
+
+
 def test_simulates_in_fmpy(fmu: Path) -> None:
     result = simulate_fmu(str(fmu), stop_time=0.5, step_size=0.01, output_interval=0.01, start_values={"sheave.mass": 80.0})
     assert result["time"][-1] == pytest.approx(0.5, abs=1e-12)
