@@ -1,11 +1,12 @@
 """Error of previews of effects: interpolated between replays at nodes, against true replays at random settings.
 
-    python benchmarks/preview.py CAMPAIGN [--settings 50] [--effects air_drag bearing_friction] [--pairs] [--seed 1]
+    python benchmarks/preview.py CAMPAIGN [--settings 50] [--effects air_drag bearing_friction] [--pairs] [--size 1] [--seed 1]
 
-Each effect has its typical size at the centre of its nodes and is moved from nothing to half as much again. Printed for each: the
-settings, the difference between the NRMSE that the preview shows and that of a replay (median and largest, in points), the
-RMS difference of the curves over the standard deviation of the measured channel (largest), processor seconds to make the preview
-of one run, and what a straight line from the centre would show (largest error of NRMSE in points). The first fit run is used.
+Each effect has its typical size (times --size) at the centre of its nodes and is moved from nothing to half as much again.
+Printed for each: the settings, the difference between the NRMSE that the preview shows and that of a replay (median and largest,
+in points), the RMS difference of the curves over the standard deviation of the measured channel (largest), processor seconds to
+make the preview of one run, and what a straight line from the centre would show (largest error of NRMSE in points). The first fit
+run is used.
 """
 
 import argparse
@@ -52,9 +53,9 @@ def shape_error(preview: EffectPreview, shown: dict, true: dict) -> float:
     return max(float(np.sqrt(np.nanmean(row**2)) / size) for row, size in rows if size > 0.0)
 
 
-def measured_row(campaign: Campaign, hypothesis: Hypothesis, settings: int, random: np.random.Generator) -> str:
-    """One row of the table."""
-    coefficients = [1.0] * len(hypothesis.directions)
+def measured_row(campaign: Campaign, hypothesis: Hypothesis, size: float, settings: int, random: np.random.Generator) -> str:
+    """One row of the table, of an effect of `size` times its typical one."""
+    coefficients = [size] * len(hypothesis.directions)
     point = ParameterPoint(effects=hypothesis.parameters(coefficients))
     sliders = sliders_of(hypothesis.split_coefficients(coefficients))
     (run,) = campaign.runs
@@ -73,9 +74,7 @@ def measured_row(campaign: Campaign, hypothesis: Hypothesis, settings: int, rand
         straight.append(100.0 * abs(straight_line(preview, values) - truth))
         shapes.append(100.0 * shape_error(preview, preview.predictions(values), true))
     moving = ", ".join(f"{one.key.removeprefix('effects.')} {min(one.nodes):g} to {max(one.nodes):g}" for one in sliders)
-    return (
-        f"| {moving} | {np.median(errors):.2g} | {max(errors):.2g} | {max(shapes):.2g} % | {made:.1f} | {max(straight):.2g} |"
-    )
+    return f"| {moving} | {np.median(errors):.2g} | {max(errors):.2g} | {max(shapes):.2g} % | {made:.1f} | {max(straight):.2g} |"
 
 
 def main() -> None:
@@ -85,6 +84,7 @@ def main() -> None:
     parser.add_argument("--settings", type=int, default=50)
     parser.add_argument("--effects", nargs="+")
     parser.add_argument("--pairs", action="store_true")
+    parser.add_argument("--size", type=float, default=1.0)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     whole = load_campaign(given.campaign)
@@ -97,7 +97,7 @@ def main() -> None:
     print("|---|---|---|---|---|---|")
     for one in tried:
         try:
-            print(measured_row(campaign, one, given.settings, np.random.default_rng(given.seed)), flush=True)
+            print(measured_row(campaign, one, given.size, given.settings, np.random.default_rng(given.seed)), flush=True)
         except SimulationError as error:
             print(f"| {one.effect}: {error} | | | | | |", flush=True)
 
