@@ -7,9 +7,9 @@ from ..mechanics.effect_hooks import all_begin
 from ..mechanics.end_conditions import PATH, PATHS, place_ends_of_state
 from ..mechanics.energy import begin_balance
 from ..mechanics.equations_of_motion import forces_of_state
-from ..mechanics.run_record import record_step
+from ..mechanics.run_record import record_step, slack_segments
 from ..runtime.kernel_arguments import Ends, Motion, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import ELEMENT, HEIGHT, PIT, R
+from ..runtime.parameter_vector import ELEMENT, HEIGHT, PIT, RATIO, R
 from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_PLACE, OUT_OF_REACH, SUCCESS
 from .inputs import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
 from .mesh import MASS, rope_length
@@ -86,6 +86,8 @@ def start_at_rest(rope: RopeData, ends: Ends, state: State, work: Workspace, t: 
     if solve_equilibrium(n, rope.frictionless, Motion(q, v, a), state.history, work) < 0.0:
         work.message[0], work.message[1], work.message[2] = u[CAR], u[COUNTERWEIGHT], p[MASS]
         return NO_EQUILIBRIUM
+    ratio = p[RATIO]
+    p[RATIO] = ratio if slack_segments(n, p, work.w) > 0 else 1.0  # as in the steps to come
     for k in range(2):  # once for the shape where histories begin, once with them
         forces_of_state(rope, state, work, t, Weights(0.0, 0.0), False)
         if k == 0:
@@ -93,4 +95,5 @@ def start_at_rest(rope: RopeData, ends: Ends, state: State, work: Workspace, t: 
     copy(2 * (n + 1), work.f, state.f)
     begin_balance(rope, state, work)
     record_step(n, t, 0.0, p, q, work.w, state.record)
+    p[RATIO] = ratio
     return SUCCESS

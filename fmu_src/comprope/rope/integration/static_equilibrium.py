@@ -11,7 +11,8 @@ from ...kernels.jit import kernel
 from ..linalg.block_band import back_substitute, factor
 from ..linalg.bordered_band import assemble_bordered, factor_bordered, solve_bordered
 from ..mechanics.equations_of_motion import forces, tangent_band
-from ..runtime.array_layout import COLUMNS, CONTACT, DYY, FIRST, LAST, ROWS, SHARE
+from ..mechanics.run_record import slack_segments
+from ..runtime.array_layout import COLUMNS, CONTACT, DYY, FIRST, LAST, ROWS
 from ..runtime.kernel_arguments import Weights
 from ..runtime.parameter_vector import ELEMENT, RATIO
 
@@ -24,14 +25,14 @@ LARGEST_MOVE = 0.25  # of an element: the longest move of one iteration
 def solve_equilibrium(n, p, motion, h0, work):
     """Move q to equilibrium, v staying zero; returns the number of iterations, or -1 where none is found.
 
-    The rope is a rod at first, since the chords of an initial guess are all too short; where the shape found has pushed segments
+    The rope is a rod at first, since the chords of an initial guess are all too short; where the shape found has slack segments
     the iteration goes on from it with their own law.
     """
     ratio = p[RATIO]
     p[RATIO] = 1.0
     iterations = iterate_to_equilibrium(n, p, motion, h0, work)
     p[RATIO] = ratio
-    if iterations < 0.0 or ratio == 1.0 or work.w[SHARE * (n + 1) + n] == 0.0:
+    if iterations < 0.0 or slack_segments(n, p, work.w) == 0:
         return iterations
     more = iterate_to_equilibrium(n, p, motion, h0, work)
     return more if more < 0.0 else iterations + more

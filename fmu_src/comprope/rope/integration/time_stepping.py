@@ -5,9 +5,9 @@ from math import ceil
 from ...kernels.jit import kernel
 from ..mechanics.end_conditions import PATH
 from ..mechanics.energy import update_balance
-from ..mechanics.run_record import SLACK_NOW, record_step, slack_segments
+from ..mechanics.run_record import SLACK_NOW, pushed_segments, record_step
 from ..runtime.kernel_arguments import Directions, Ends, Motion, RopeData, State, TimeStep, Workspace
-from ..runtime.parameter_vector import ELEMENT, slot
+from ..runtime.parameter_vector import ELEMENT, RATIO, slot
 from ..runtime.status import LOST, LOST_AT_SHEAVE, SUCCESS, TOO_MANY_STEPS
 from .derivative_hook import advance_directions
 from .newmark import HALVED, MOST_HALVINGS, STEPS, WORST, copy, newmark_step
@@ -44,17 +44,19 @@ def take_steps(rope, path, dt, steps, state, motion, work, directions):
     """Advance the state by dt in `steps` equal time steps; one that does not converge is halved.
 
     Returns the fraction of dt that was reached: 1 when all went well. Time is always that of the start plus a
-    fraction of dt, never a running sum.
+    fraction of dt, never a running sum. The rope is a rod in steps without slack: iterates on the way to a taut rope may push.
     """
     t0, p = state.time[0], rope.p
+    ratio = p[RATIO]
     for k in range(steps):
         done, depth, slack = 0.0, 0, state.record[SLACK_NOW] > 0.0
         size = slack_share(dt / steps) if slack else 1.0
         while done < 1.0:
             s = (k + done + size) / steps
             step = TimeStep(t0 + s * dt, size * dt / steps, dt, s, slack)
+            p[RATIO] = ratio if slack else 1.0
             if newmark_step(rope.n, p, path, step, state, motion, work):
-                if not slack and slack_segments(rope.n, p, work.w) > 0:
+                if not slack and ratio != 1.0 and pushed_segments(rope.n, p, work.w) > 0:
                     slack, size = True, min(size, slack_share(dt / steps))
                     continue  # again, with the rule for slack rope
                 update_balance(rope, step, state, motion, work)
@@ -71,7 +73,9 @@ def take_steps(rope, path, dt, steps, state, motion, work, directions):
                 state.counters[HALVED] += 1
                 size, depth = 0.5 * size, depth + 1
                 if depth > MOST_HALVINGS:
+                    p[RATIO] = ratio
                     return (k + done) / steps
+    p[RATIO] = ratio
     return 1.0
 
 

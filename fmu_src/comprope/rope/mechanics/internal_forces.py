@@ -16,7 +16,7 @@ from math import sqrt
 
 from ...kernels.jit import kernel
 from ..runtime.array_layout import BEND_RATE, CURVATURE, FX, FY, INVERSE, MOMENT, SHARE, SHEAR, SPIN, STIFF, TENSION, TX, TY
-from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G
+from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RATIO, RHO, G
 from .axial_law import relieve_compression
 
 
@@ -46,7 +46,7 @@ def stretch(n, p, q, v, w):
         loose += (tension < 0.0) | (l > L)
         w[SPIN * m + e] = (tx * vy - ty * vx) * inverse
     w[SHARE * m + n] = loose
-    if loose > 0:
+    if loose > 0 and p[RATIO] != 1.0:
         relieve_compression(n, p, w)
 
 

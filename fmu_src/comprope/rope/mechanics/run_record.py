@@ -33,13 +33,19 @@ def least_tension(n, w):
 
 
 @kernel
-def slack_segments(n, p, w):
-    """How many segments are pushed so much that a rope gives way; a rod never does."""
+def pushed_segments(n, p, w):
+    """How many segments are pushed so much that a rope gives way."""
     count, m, most = 0, n + 1, -0.5 * p[EA] * SLACK_STRAIN
-    if w[SHARE * m + n] > 0.0 and p[RATIO] != 1.0:
+    if w[SHARE * m + n] > 0.0:
         for e in range(n - 1):
             count += 1 if w[TENSION * m + e] < most else 0
     return count
+
+
+@kernel
+def slack_segments(n, p, w):
+    """How many segments are slack: pushed, and no rod."""
+    return 0 if p[RATIO] == 1.0 else pushed_segments(n, p, w)
 
 
 @kernel
