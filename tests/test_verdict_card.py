@@ -7,14 +7,15 @@ from xml.etree import ElementTree
 import pytest
 
 from comprope.rope.effects import INSTRUMENT, REGISTRY
+from comprope_system.identification.reporting.detection_limits import detection_sentence
 from comprope_system.identification.reporting.effect_descriptions import MEANINGS, drawing, meaning
 from comprope_system.identification.reporting.formatting import in_handy_unit, listed_words, number
-from comprope_system.identification.reporting.verdict_card import _limit_above_nominal
 from comprope_system.report.card import Card
 from comprope_system.report.page import Section, save_page
 
 COLOURS = ("ink", "soft", "pale", "measured", "good")
-EFFECTS = [*(name for name, one in REGISTRY.items() if not getattr(one, "source", "")), *INSTRUMENT, "adequate", "unknown"]
+KNOWN = [name for name, one in REGISTRY.items() if one.hypothesis and not one.source]
+EFFECTS = [*KNOWN, *INSTRUMENT, "adequate", "unknown"]
 
 
 @pytest.mark.parametrize("effect", EFFECTS)
@@ -70,8 +71,15 @@ def test_numbers_have_three_digits_and_no_exponent_where_it_is_not_needed():
 def test_an_effect_could_not_be_seen_if_no_parameter_of_typical_size_would_be():
     key = "effects.bearing_friction"
     limits = [{f"{key}.coulomb_torque": torque, f"{key}.viscous": 0.25} for torque in (0.5, 7.0)]
-    candidates = [SimpleNamespace(hypothesis=SimpleNamespace(effect="bearing_friction"), detection_limits=one) for one in limits]
-    assert [_limit_above_nominal(one) for one in candidates] == [[], ["bearing friction below coulomb torque 7 N·m"]]
+    hypothesis = SimpleNamespace(effect="bearing_friction", parts=())
+    found = [
+        detection_sentence(SimpleNamespace(verdict=None, ranking=[SimpleNamespace(hypothesis=hypothesis, detection_limits=one)]))
+        for one in limits
+    ]
+    assert found == [
+        "Each known effect would have been seen at its typical size.",
+        "These data would not have shown bearing friction below coulomb torque 7 N·m.",
+    ]
 
 
 def test_texts_of_a_card_are_escaped(tmp_path):
