@@ -86,7 +86,7 @@ def gauss_newton(
         if solution.chi_square > abandon_above * (1.0 if trusted else GAUSS_NEWTON.hopeless_factor):
             break
         before = best.cost(scale)
-        enough, predicted = _least_decrease(scale) * scale * count, before - solution.cost
+        enough, predicted = _least_decrease(hypothesis, scale) * scale * count, before - solution.cost
         if predicted >= enough:
             # Where updated derivatives lead nowhere, shorter steps along them lead nowhere either.
             shares = GAUSS_NEWTON.step_fractions if fresh else GAUSS_NEWTON.step_fractions[:2]
@@ -103,26 +103,32 @@ def gauss_newton(
     return best
 
 
-def _least_decrease(scale: float) -> float:
-    """Decrease of the cost per datum and mean square of the residual `scale` below which the iteration ends."""
-    return GAUSS_NEWTON.far_decrease if scale > GAUSS_NEWTON.far_from_data else GAUSS_NEWTON.min_decrease
+def _least_decrease(hypothesis: Hypothesis | None, scale: float) -> float:
+    """Decrease of the cost per datum and mean square of the residual `scale` below which the iteration ends.
+
+    The plant alone, far from the data, need not be fitted closely: an effect is missing, and its parameters are of no use.
+    """
+    far = hypothesis is None and scale > GAUSS_NEWTON.far_from_data
+    return GAUSS_NEWTON.far_decrease if far else GAUSS_NEWTON.min_decrease
 
 
 def fit_on_full_mesh(
     problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint, *, thorough: bool
 ) -> FitResult:
-    """A fit to a coarsened problem continued on the full mesh, with the derivatives of the coarse one to begin with.
+    """A fit to a coarsened problem continued on the full mesh.
 
-    Where much more is left than noise, the coarse mesh tells little of the minimum: a `thorough` fit then computes derivatives
-    anew, and another one is only evaluated. Raises `SimulationError` if the model cannot be simulated there.
+    A `thorough` fit computes derivatives there: with those of the coarse mesh, parameters that only their priors determine stay
+    where the coarse fit has left them. Another one begins with the coarse mesh's derivatives, and is only evaluated where much
+    more is left than noise. Raises `SimulationError` if the model cannot be simulated there.
     """
+    if thorough:
+        return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base)
     (predictions,) = problem.predictions(fitted.point)
     residual = problem.residual(predictions)
     there = replace(fitted, predictions=predictions, chi_square=float(residual @ residual))
-    far = there.chi_square > GAUSS_NEWTON.far_from_data * len(problem.data)
-    if far and not thorough:
+    if there.chi_square > GAUSS_NEWTON.far_from_data * len(problem.data):
         return there
-    return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base, initial_fit=there, renew=far)
+    return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base, initial_fit=there, renew=False)
 
 
 def evaluate(problem: LeastSquaresProblem, hypothesis: Hypothesis | None, x: Floats, base: ParameterPoint) -> FitResult:

@@ -82,7 +82,7 @@ class GaussNewton:
 
     min_decrease: float = setting(4e-3, "1", "decrease of the cost per datum below which the iteration ends", JUDGEMENT)
     far_decrease: float = setting(
-        0.02, "1", "the same while the fit leaves more than `far_from_data`, where its minimum decides nothing yet",
+        0.02, "1", "the same for the plant alone while it leaves more than `far_from_data`: its minimum decides nothing",
         "verdicts of the practice campaigns are the same as with 0.004",
     )  # fmt: skip
     max_iterations: int = setting(40, "1", "most iterations", JUDGEMENT)
