@@ -39,7 +39,6 @@ DIRECTIONS = {
     "rope mass": {"rope.mass_per_length": 1.0},
     "sheave mass": {"sheave.mass": 1.0},
     "inertia": {"sheave.inertia": 1.0},
-    "ropes": {"sheave.ropes": 1.0},
     "friction": {"contact.friction_coefficient": 1.0},
     "radius": {"sheave.radius": 1.0},
     "pit": {"shaft.pit": 1.0},
