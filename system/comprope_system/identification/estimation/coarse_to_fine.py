@@ -46,7 +46,7 @@ def fit_from_file(
     else:
         fitted = gauss_newton(rough, hypothesis, start, base, initial_fit=initial)
     if rough.coarse != problem.coarse:
-        fitted = fit_on_full_mesh(problem, fitted, base, thorough=False)
+        fitted = fit_on_full_mesh(problem, fitted, base, thorough=hypothesis is not None)  # effects are reported
     return FitFromFile(rough, initial, fitted)
 
 
