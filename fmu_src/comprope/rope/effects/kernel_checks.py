@@ -4,6 +4,7 @@ The requirements are met by every built-in effect: powers are those of the force
 and tangents of forces. Tangents may leave out what is small.
 """
 
+import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -21,6 +22,7 @@ from .base import HOOK_TYPES, HOOKS, Effect
 from .trial_state import NODES, STEP, TIME, TrialState
 
 Floats = NDArray[np.float64]
+COLOURS = re.compile(r"\x1b\[[0-9;]*m")  # of the compiler's messages, where a package for colours is installed
 CLOSE = 1e-5  # relative, for what has to be exact: what differences leave
 ROUGH = 0.2  # relative, for tangents, which may be approximate
 _BLOCKS = ((0, 0), (1, 3), (2, 7))  # how far apart the nodes of a block of the band are, and its first section
@@ -48,7 +50,7 @@ def _compiler_problem(function: Any, hook: str) -> str | None:
     try:
         function.compile(tuple(types.get(HOOK_TYPES.get(name), jit.POINTER) for name in HOOKS[hook].split(", ")))
     except NumbaError as error:
-        return _compiler_message([line.strip() for line in str(error).splitlines()])
+        return _compiler_message([line.strip() for line in COLOURS.sub("", str(error)).splitlines()])
     return None
 
 

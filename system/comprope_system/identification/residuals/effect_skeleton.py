@@ -16,9 +16,6 @@ from .input_estimation import ForceEstimate, InputEstimation
 from .residual_correlation import ResidualCorrelation, explained_squares
 from .skeleton_templates import ENDS, FILE, LOCATIONS, ON_SIDE, PROPORTIONAL, SINUSOIDS
 
-WIDTH = 110  # of comments
-LARGEST = 1e3  # times the estimated size that is accepted
-
 
 @dataclass(frozen=True)
 class Law:
@@ -53,7 +50,7 @@ def _law(best: ForceEstimate, one: ResidualCorrelation, campaign: Campaign) -> L
     if one.coordinate in PROPORTIONAL and best.location.quantity not in ENDS:
         top = max(float(np.abs(run.trip.velocity(run.time)).max()) for run in campaign.runs)
         speed = f'"m/s", "speed at which it has that size", 1e-6, 100.0, default={number(top)}'
-        declared = {"size": _size(best, -LARGEST * best.size), "reference": speed}
+        declared = {"size": _size(best, -FORCE_REPORT.largest_size * best.size), "reference": speed}
         return Law(declared, (), f"p[SIZE] * {PROPORTIONAL[one.coordinate]} / p[REFERENCE]")
     return None
 
@@ -73,7 +70,7 @@ def _sinusoid(best: ForceEstimate, one: ResidualCorrelation, campaign: Campaign)
 
 def _size(best: ForceEstimate, least: float) -> str:
     """Declaration of the size, in the unit of the location; that of a sinusoid with the estimated rms is the nominal one."""
-    limits, nominal = f"{number(least)}, {number(LARGEST * best.size)}", number(2.0**0.5 * best.size)
+    limits, nominal = f"{number(least)}, {number(FORCE_REPORT.largest_size * best.size)}", number(2.0**0.5 * best.size)
     return f'"{best.location.unit}", "largest value of {best.location.name}", {limits}, nominal={nominal}, off=0.0'
 
 
@@ -98,7 +95,7 @@ def _file(force: InputEstimation, location: ForceLocation, coordinate: str, law:
     sinusoid = "phase" in declared
     lines = ['    polar = ("size", "phase")'] if sinusoid else []
     return FILE.substitute(
-        sentence=fill(f"{force.sentence()}.", WIDTH), location=location.name, coordinate=coordinate,
+        sentence=fill(f"{force.sentence()}.", FORCE_REPORT.comment_width), location=location.name, coordinate=coordinate,
         imports=f"from math import {'cos, ' if moves else ''}pi, sin\n\n" if sinusoid else "",
         quantities="\n".join([*lines, *(f"    {name}: float = quantity({text})" for name, text in declared.items())]),
         slots="\n".join(f'{name.upper()} = slot("effects.missing_effect.{name}")' for name in declared),

@@ -65,6 +65,8 @@ class ForceReport:
     min_sinusoid_share: float = setting(
         0.6, "1", "share above which a sinusoid is reported; any smooth history resembles one somewhat", JUDGEMENT
     )
+    largest_size: float = setting(1e3, "1", "largest accepted size of a proposed effect over the estimated one", JUDGEMENT)
+    comment_width: int = setting(110, "characters", "width of the comment in the file of a proposed effect", JUDGEMENT)
     max_waves: int = setting(100, "1", "most periods over the shaft of a force that follows the car's position", JUDGEMENT)
     waves_step: float = setting(0.05, "1", "distance of the numbers of periods that are tried", JUDGEMENT)
     similar_share: float = setting(
