@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import pytest
 from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
@@ -192,6 +193,15 @@ class Pair:
     def save_state(self) -> None:
         found = self.both(self.instance.getFMUState, lambda: self.oracle.instance.save_state("one"))
         self.states.append((*found, self.oracle.phase))
+
+    def require_flipped_bits_refused(self) -> None:
+        """Of the serialised present state, one flipped bit is refused, wherever it is."""
+        data = self.instance.serializeFMUState(self.instance.getFMUState())
+        for bit in random.Random(3).sample(range(8 * len(data)), 200):
+            changed = bytearray(data)
+            changed[bit // 8] ^= 1 << bit % 8
+            with pytest.raises(FMICallException):
+                self.instance.deserializeFMUState(bytes(changed))
 
     def restore_state(self, place: int, serialized: bool) -> None:
         """Restore a saved state, if wanted from its bytes."""

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 import pytest
 from fmpy import extract, read_model_description, simulate_fmu
-from fmpy.fmi1 import FMICallException
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
@@ -230,12 +229,7 @@ def test_a_motor_too_weak_on_the_way_is_an_error(pair: DrivePair) -> None:
 def test_a_serialized_state_with_one_flipped_bit_is_refused(pair: DrivePair) -> None:
     pair.start({})
     pair.do_step(1.5)
-    data = pair.instance.serializeFMUState(pair.instance.getFMUState())
-    for bit in random.Random(3).sample(range(8 * len(data)), 200):
-        changed = bytearray(data)
-        changed[bit // 8] ^= 1 << bit % 8
-        with pytest.raises(FMICallException):
-            pair.instance.deserializeFMUState(bytes(changed))
+    pair.require_flipped_bits_refused()
 
 
 def test_a_state_goes_on_bit_for_bit_in_an_instance_with_other_parameters(fmu: Path) -> None:

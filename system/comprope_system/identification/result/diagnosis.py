@@ -1,6 +1,7 @@
 """The result of `comprope_system.diagnose`."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -83,7 +84,7 @@ class DiagnosisResult(Result):
         """Remarks on the quality of the data."""
         return self.validated.remarks
 
-    @property
+    @cached_property
     def effect_skeleton(self) -> str | None:
         """The file of an effect with the estimated force; None where no effect is unknown, or the force follows nothing."""
         return effect_skeleton(self.residual_force, self.campaign) if self.residual_force else None
