@@ -5,7 +5,8 @@ from math import sqrt
 
 import pytest
 
-from comprope.kernels.jit import kernel
+from comprope.kernels.inlining import inlined_kernel
+from comprope.kernels.jit import PURE, kernel
 from comprope.kernels.kernel_linking import linked, merged
 
 
@@ -47,4 +48,14 @@ def test_a_name_imported_in_several_modules_is_one() -> None:
 
 def test_a_hook_is_replaced_wherever_it_is_imported() -> None:
     names = merged([module("a", hook=hook, caller=caller, double=double), module("b", hook=hook)], {"hook": double})
-    assert linked(names, "joined")["caller"](1.0) == 4.0
+    assert linked(names, "joined", compile=kernel)["caller"](1.0) == 4.0
+
+
+@pytest.mark.skipif(PURE, reason="kernels are plain functions without a compiler")
+def test_a_kernel_to_be_inlined_is_for_other_kernels_only() -> None:
+    inner = inlined_kernel(double.py_func)
+    outer = kernel(eval("lambda x: inner(x) + 1.0", {"inner": inner}))
+    assert outer(2.0) == 5.0
+    with pytest.raises(TypeError):
+        inner(2.0)
+    assert outer(2.0) == 5.0

@@ -4,6 +4,7 @@ Tangents are compared with central differences of the forces; the rope then rubs
 bent and moving at random.
 """
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 
 from comprope.drive.parameters import Profile
 from comprope.drive.trajectory.s_curve import plan_s_curve
+from comprope.kernels.jit import kernel
 from comprope.quantities import quantities
 from comprope.rope.compiler.entry_points import compiled
 from comprope.rope.compiler.workspace import RopeWorkspace
@@ -47,10 +49,17 @@ def differences(do: RopeWorkspace, variable: np.ndarray, h: float) -> np.ndarray
     return np.array(columns).T
 
 
+@cache
+def kernel_of_band() -> Callable[..., None]:
+    """The kernel `tangent_band` with the effects, for Python: other kernels inline it."""
+    arguments = "n, time, p, motion, work, mass, weights"
+    return kernel(eval(f"lambda {arguments}: tangent_band({arguments})", compiled()["forces"].function.__globals__))
+
+
 def band_of(do: RopeWorkspace, ck: float, cc: float, mass: float = 0.0) -> np.ndarray:
     """The band A at the state of the last call of `forces`, effects included."""
-    work, s, joined = do.work._replace(A=np.zeros_like(do.work.A)), do.state, compiled()["forces"].function.__globals__
-    joined["tangent_band"](do.rope.n, TIME, do.rope.p, Motion(s.q, s.v, s.a), work, mass, Weights(ck, cc))
+    work, s = do.work._replace(A=np.zeros_like(do.work.A)), do.state
+    kernel_of_band()(do.rope.n, TIME, do.rope.p, Motion(s.q, s.v, s.a), work, mass, Weights(ck, cc))
     return work.A
 
 

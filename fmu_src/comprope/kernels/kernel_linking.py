@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from . import jit
+from .inlining import inlined_kernel
 
 
 def merged(modules: Iterable[types.ModuleType], replacing: Mapping[str, Any]) -> dict[str, Any]:
@@ -24,7 +25,7 @@ def merged(modules: Iterable[types.ModuleType], replacing: Mapping[str, Any]) ->
     return names
 
 
-def linked(names: Mapping[str, Any], module: str, compile: Callable[..., Any] = jit.kernel) -> dict[str, Any]:
+def linked(names: Mapping[str, Any], module: str, compile: Callable[..., Any] = inlined_kernel) -> dict[str, Any]:
     """A copy of a namespace in which every kernel calls the kernels of that copy."""
     copy = {key: value for key, value in names.items() if not key.startswith("__")} | {"__name__": module}
     for key, value in names.items():

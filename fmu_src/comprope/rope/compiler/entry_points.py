@@ -13,10 +13,11 @@ from collections.abc import Iterable
 from functools import cache
 from typing import Any
 
-from ...kernels import jit
+from ...kernels import inlining, jit
 from ...kernels.disk_cache import kernel_folder
 from ...kernels.entry import Entry
 from ...kernels.entry_source import EntrySource, Tables
+from ...kernels.inlining import inlined_kernel
 from ...kernels.joined import entries_of, entries_text, joined_module
 from ...kernels.kernel_linking import linked, merged
 from ..effects import REGISTRY, numerical_tangent
@@ -117,7 +118,7 @@ def _joined(chosen: tuple[type[Effect], ...]) -> dict[str, Entry]:
     joined = joined_module(folder)
     for effect in chosen:
         _link_effect(effect, joined)
-    joined.__dict__["kernel"] = jit.kernel
+    joined.__dict__["kernel"] = inlined_kernel
     exec(hooks, joined.__dict__)
     replacing = {f"all_{hook}": getattr(joined, f"all_{hook}") for hook in HOOKS}
     replacing |= {"advance_directions": newmark_derivatives.advance_directions}
@@ -132,13 +133,13 @@ def _link_effect(effect: type[Effect], joined: types.ModuleType) -> None:
     if lacks_tangents(effect):
         names = vars(numerical_tangent) | {"effect_kernel": own[effect.hooks["forces"].__name__], "__name__": joined.__name__}
         code = numerical_tangent.difference_forces.__code__
-        joined.__dict__[f"{effect.name}_tangents"] = jit.kernel(types.FunctionType(code, names, f"{effect.name}_tangents"))
+        joined.__dict__[f"{effect.name}_tangents"] = inlined_kernel(types.FunctionType(code, names, f"{effect.name}_tangents"))
 
 
 def _sources(chosen: Iterable[type[Effect]]) -> list[str]:
     """The source of every kernel; of own effects as it was run, whatever has become of the file."""
     modules = {effect.__module__ for effect in chosen if not effect.source}
-    own = (*MODULES, *HOOK_MODULES, jit, numerical_tangent)
+    own = (*MODULES, *HOOK_MODULES, jit, inlining, numerical_tangent)
     built_in = [inspect.getsource(one) for one in (*own, *(sys.modules[name] for name in sorted(modules)))]
     return built_in + sorted({FILES[effect.source].text for effect in chosen if effect.source})
 
