@@ -50,16 +50,16 @@ def differences(do: RopeWorkspace, variable: np.ndarray, h: float) -> np.ndarray
 
 
 @cache
-def kernel_of_band() -> Callable[..., None]:
-    """The kernel `tangent_band` with the effects, for Python: other kernels inline it."""
+def kernel_of_band(effects: tuple[str, ...]) -> Callable[..., None]:
+    """The kernel `tangent_band` with these effects, for Python: other kernels inline it."""
     arguments = "n, time, p, motion, work, mass, weights"
-    return kernel(eval(f"lambda {arguments}: tangent_band({arguments})", compiled()["forces"].function.__globals__))
+    return kernel(eval(f"lambda {arguments}: tangent_band({arguments})", compiled(effects)["forces"].function.__globals__))
 
 
 def band_of(do: RopeWorkspace, ck: float, cc: float, mass: float = 0.0) -> np.ndarray:
     """The band A at the state of the last call of `forces`, effects included."""
     work, s = do.work._replace(A=np.zeros_like(do.work.A)), do.state
-    kernel_of_band()(do.rope.n, TIME, do.rope.p, Motion(s.q, s.v, s.a), work, mass, Weights(ck, cc))
+    kernel_of_band(do.effects)(do.rope.n, TIME, do.rope.p, Motion(s.q, s.v, s.a), work, mass, Weights(ck, cc))
     return work.A
 
 
