@@ -25,6 +25,7 @@ class Bent:
         n = do.rope.n
         q, v = (array.reshape(2, n + 1) for array in (do.state.q, do.state.v))
         self.v, self.spin, self.rise = v[:, :n], v[1, n], v[0, n]
+        self.q, self.depth, self.angle = q[:, :n], q[0, n], q[1, n]
         self.side = np.sign(q[1, :n])
         step = np.diff(q[:, :n], axis=1)
         self.length = np.hypot(*step)
@@ -54,6 +55,17 @@ class Bent:
         found[:, 1:-2] = -0.5 * 1.2 * 1.1 * DIAMETER * self.element * np.abs(u) * u * normal
         return found
 
+    def beside(self, length: float) -> np.ndarray:
+        """Share of each node in what is beside the counterweight's side at 0.5 m: cos^2 over `length` to either side."""
+        away = np.minimum(np.abs(-self.q[0] - 0.5) / length, 1.0)
+        found = np.where(self.q[1] > 0.0, np.cos(0.5 * np.pi * away) ** 2 * self.element / length, 0.0)
+        found[[0, -1]] = 0.0  # the ends are held
+        return found
+
+    def pushed(self, across: np.ndarray, along: np.ndarray) -> np.ndarray:
+        """Forces (2, n + 1) on the nodes."""
+        return np.pad(np.array([along, across]), ((0, 0), (0, 1)))
+
     def on_sheave(self, force: float = 0.0, torque: float = 0.0) -> np.ndarray:
         """A force and a torque on the sheave."""
         found = np.zeros((2, self.length.size + 2))
@@ -79,6 +91,28 @@ def held(speed: float) -> float:
     return 1e3 * speed + 1e5 * over**2 / (over + 0.01)
 
 
+def stuck(speed: float) -> float:
+    """A sticky guide's force: 10 N in sliding and 20 N more at breakaway, which fades over 2 mm/s."""
+    return coulomb(10.0 + 20.0 * np.exp(-((speed / 2e-3) ** 2)), speed, 5e-4)
+
+
+def brushed(bent: Bent) -> np.ndarray:
+    """20 N/m and 5 N s/m over 0.2 m."""
+    return bent.pushed(-bent.beside(0.2) * (20.0 * (bent.q[1] - STUB.sheave.radius) + 5.0 * bent.v[1]), 0.0 * bent.v[0])
+
+
+def guided(bent: Bent) -> np.ndarray:
+    """100 N/m outward where the rope is less than 20 mm out, over 1 m, and friction of 0.2."""
+    across = 100.0 * bent.beside(1.0) * np.maximum(0.02 - (bent.q[1] - STUB.sheave.radius), 0.0)
+    return bent.pushed(across, -0.2 * across * bent.v[0] / np.hypot(bent.v[0], 0.02))
+
+
+def whirled(bent: Bent) -> np.ndarray:
+    """0.1 kg m, one radian from straight down at the start."""
+    turned = bent.angle + 1.0
+    return bent.on_sheave(0.1 * bent.spin**2 * np.cos(turned), -0.1 * STUB.shaft.gravity * np.sin(turned))
+
+
 # The force (2, n + 1) that an effect adds at its nominal values: 1.1 for the drag coefficient, 5 N.m, 0.1 N.m.s, 20 N ...
 FORMULAS: dict[str, Callable[[Bent, RopeWorkspace], np.ndarray]] = {
     "air_drag": lambda bent, do: bent.drag(0.0),
@@ -88,6 +122,12 @@ FORMULAS: dict[str, Callable[[Bent, RopeWorkspace], np.ndarray]] = {
     "bearing_friction": lambda bent, do: bent.on_sheave(torque=coulomb(5.0, bent.spin, 0.01) - 0.1 * bent.spin),
     "guide_friction": lambda bent, do: bent.on_sheave(coulomb(20.0, bent.rise, 5e-4)),
     "sheave_damper": lambda bent, do: bent.on_sheave(-1e4 * bent.rise),
+    "sheave_unbalance": lambda bent, do: whirled(bent),
+    "jammed_seal": lambda bent, do: bent.on_sheave(torque=-0.05 * bent.angle),
+    "jammed_guide": lambda bent, do: bent.on_sheave(-1e4 * (bent.depth - STUB.shaft.pit)),
+    "sticky_guide": lambda bent, do: bent.on_sheave(stuck(bent.rise)),
+    "rope_brush": lambda bent, do: brushed(bent),
+    "rope_guide": lambda bent, do: guided(bent),
     "tie_down": lambda bent, do: bent.on_sheave(-held(bent.rise)),
 }
 
@@ -125,7 +165,8 @@ def test_effect_moves_the_ends_as_its_formula_says(effect: str, changes: dict[st
 
 
 def test_every_effect_is_compared_with_a_formula() -> None:
-    assert {"building_sway", "attachment_offset", "sheave_eccentricity", "end_stops", "shaft_walls", *FORMULAS} == set(REGISTRY)
+    elsewhere = {"building_sway", "attachment_offset", "encoder_scale", "sheave_eccentricity", "end_stops", "shaft_walls"}
+    assert elsewhere | set(FORMULAS) == set(REGISTRY)
 
 
 SHAFT = {"shaft.height": 4.0, "rope.bending_stiffness": 2.0}
@@ -153,8 +194,8 @@ def test_an_eccentric_groove_lifts_the_axle_and_shifts_the_rope_towards_its_cent
     assert aside[1:] == pytest.approx([0.85 * e, -0.85 * e], rel=0.1)
 
 
-# Those that act on a rope at rest: a building that sways moves its ends, an eccentric sheave turns under its weight.
-STILL = [effect for effect in REGISTRY if effect not in ("building_sway", "sheave_eccentricity")]
+# Those that act on a rope at rest: a building that sways moves its ends, an eccentric or unbalanced sheave turns under weight.
+STILL = [effect for effect in REGISTRY if effect not in ("building_sway", "sheave_eccentricity", "sheave_unbalance")]
 
 
 @pytest.mark.parametrize("effect", STILL)

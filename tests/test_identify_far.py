@@ -12,7 +12,7 @@ from comprope_system.identification.estimation.gauss_newton import evaluate
 from comprope_system.identification.estimation.mass_search import search_rope_mass
 from comprope_system.identification.estimation.parameter_estimates import plant_estimates
 from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect, instrument_hypotheses
-from comprope_system.identification.hypotheses.model_effects import shape_hypothesis
+from comprope_system.identification.hypotheses.model_effects import shapes_of
 from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.model_updating.add_effect import fit_baseline
 from comprope_system.identification.prediction.parameter_point import ParameterPoint
@@ -95,6 +95,7 @@ def test_what_oscillates_is_stepped_by_little():
 def test_a_frequency_may_move_by_a_period_over_a_run(longest):
     """So far it reaches between those that are tried, and no further down, where a slow sway is another effect's drift."""
     key = "effects.building_sway.frequency"
-    (direction,) = shape_hypothesis(hypotheses_of_effect(REGISTRY["building_sway"], (0.3,))[0], longest).directions
+    (shape,) = shapes_of(hypotheses_of_effect(REGISTRY["building_sway"], (0.3,))[0], longest)
+    (direction,) = shape.directions
     assert direction.changes[key] * direction.lower == pytest.approx(max(-1.0 / longest, -0.3), rel=0.2)
     assert direction.changes[key] * direction.upper >= 1.0 / longest

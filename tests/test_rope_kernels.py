@@ -32,7 +32,7 @@ from .random_rope import COMPANIONS, TIME, forces, nominal, random_state
 from .rope_tower import STUB, TOWER, ride, rope
 
 # Effects that can only take energy, whatever the rope does. Wire friction does so over a cycle, not at each moment.
-DISSIPATIVE = ("air_drag", "bearing_friction", "guide_friction", "sheave_damper", "tie_down")
+DISSIPATIVE = ("air_drag", "bearing_friction", "guide_friction", "sheave_damper", "sticky_guide", "tie_down")
 UNDAMPED = {"rope.axial_damping": 0.0, "rope.bending_damping": 0.0}
 
 
@@ -329,7 +329,8 @@ def test_effect_keeps_the_tangent_right(effect: str) -> None:
     # Left out on purpose: how air drag turns with the rope (1e-3 N/m) and how the arm of the contact force of an
     # eccentric groove turns with it (e P = 1 N m on the sheave's angle). Stiffnesses reach 3e8.
     assert agrees(tangent(do, 1.0, 0.0)[inner], differences(do, do.state.q, 1e-8)[inner], 2.0)
-    assert agrees(tangent(do, 0.0, 1.0)[inner], differences(do, do.state.v, 1e-5)[inner], 1e-5)
+    floor = {"sheave_unbalance": 0.1}.get(effect, 1e-5)  # how its force changes with omega, 2 U omega = 0.1 N s
+    assert agrees(tangent(do, 0.0, 1.0)[inner], differences(do, do.state.v, 1e-5)[inner], floor)
 
 
 @pytest.mark.parametrize("effect", [name for name in EVERY_EFFECT if {"forces", "moments"} & set(REGISTRY[name].hooks)])

@@ -6,7 +6,7 @@ section, see `runtime.array_layout`; HOOKS):
     moments(n, p, w, h0, h1) -> W       adds to w[MOMENT], and its derivative by curvature to w[STIFF]
     forces(n, t, p, q, v, w, f) -> W    adds forces to f, on nodes or on the sheave (column n)
     tangents(n, t, p, q, v, w, A, weights)   subtracts ck df/dq + cc df/dv of its forces from A; ck, cc = weights
-    ends(n, t, p, q, v, a)              moves the rope's ends sideways
+    ends(n, t, p, q, v, a)              moves the rope's ends
     groove(p, angle) -> x, y, x', y'    offset of the groove's centre from the axle, and by angle
     begin(n, p, w, h0)                  sets the history h0 of a rope at rest
 

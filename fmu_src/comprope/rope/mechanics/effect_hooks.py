@@ -23,7 +23,7 @@ def all_tangents(n, t, p, q, v, w, A, weights):
 
 @kernel
 def all_ends(n, t, p, q, v, a):
-    """Move the rope's ends sideways."""
+    """Move the rope's ends."""
 
 
 @kernel

@@ -34,7 +34,7 @@ def follow(path, k, dt, s):
 
 @kernel
 def place_ends(n, t, p, path, dt, s, motion):
-    """Put both ends where their paths have them at fraction s, then let effects move them sideways."""
+    """Put both ends where their paths have them at fraction s, then let effects move them."""
     m, q, v, a = n + 1, motion.q, motion.v, motion.a
     for k, i in ((0, 0), (1, m), (2, n - 1), (3, m + n - 1)):
         q[i], v[i], a[i] = follow(path, k, dt, s)

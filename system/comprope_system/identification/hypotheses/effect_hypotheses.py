@@ -11,6 +11,7 @@ from math import atan2, hypot, pi
 
 from comprope.quantities import Quantity, quantities
 from comprope.rope.effects import INSTRUMENT, REGISTRY, Effect, RopeModel, names_of
+from comprope.rope.parameters import Base
 
 from ..data.runs import Channel
 from ..settings import HYPOTHESES
@@ -81,16 +82,25 @@ class Hypothesis:
 def effect_hypotheses(model: RopeModel, frequencies: tuple[float, ...] = ()) -> list[Hypothesis]:
     """All variants of all effects that the model may have; `frequencies` [Hz] are those of oscillating effects."""
     asked = [REGISTRY[name] for name in names_of(model) if REGISTRY[name].hypothesis]
-    return [one for effect in asked for one in hypotheses_of_effect(effect, frequencies)]
+    return [one for effect in asked for one in hypotheses_of_effect(effect, frequencies, heights_tried(model))]
 
 
-def hypotheses_of_effect(effect: type[Effect], frequencies: tuple[float, ...]) -> list[Hypothesis]:
+def heights_tried(model: Base) -> tuple[float, ...]:
+    """Heights [m] at which effects are tried that act at one height, above the bottom landing."""
+    return tuple(share * model.shaft.height for share in HYPOTHESES.heights)
+
+
+def hypotheses_of_effect(
+    effect: type[Effect], frequencies: tuple[float, ...], heights: tuple[float, ...] = ()
+) -> list[Hypothesis]:
     """Variants of an effect: one for each combination of the values of its shape parameters that are tried."""
     tried = dict(effect.probes)
     declared = {one.name: one for one in quantities(effect)}
     if "frequency" in declared:
         tried["frequency"] = frequencies or (declared["frequency"].nominal,)
     amplitudes = [one for one in declared.values() if _is_amplitude(one, effect)]
+    if "height" in declared and declared["height"] not in amplitudes:
+        tried["height"] = heights or (declared["height"].nominal,)
     found = []
     for values in product(*tried.values()):
         chosen = dict(zip(tried, values, strict=True))

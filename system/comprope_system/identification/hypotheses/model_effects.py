@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comprope.errors import InputError
-from comprope.quantities import quantities
+from comprope.quantities import Quantity, quantities
 from comprope.rope.effects import INSTRUMENT, REGISTRY, RopeModel
 from comprope.rope.simulator.rope import values_of
 from comprope.validation_messages import suggestion
@@ -16,10 +16,11 @@ from comprope.validation_messages import suggestion
 from ..data.campaign import Campaign
 from ..data.runs import Channel
 from ..settings import HYPOTHESES
-from .effect_hypotheses import Hypothesis, combine, hypotheses_of_effect, instrument_hypotheses
+from .effect_hypotheses import Hypothesis, combine, heights_tried, hypotheses_of_effect, instrument_hypotheses
 from .plant_parameters import Direction
 
 Floats = NDArray[np.float64]
+SIDE = "side"  # of the shaft, where an effect acts on one: of its values only the sign counts, so it is tried and not fitted
 
 
 def effect_values(model: RopeModel) -> dict[str, float]:
@@ -85,36 +86,33 @@ def _distance_from_typical(found: tuple[Hypothesis, list[float]]) -> float:
     return total if isfinite(total) else 1e300
 
 
-def shape_hypothesis(one: Hypothesis, longest: float) -> Hypothesis | None:
-    """Shape parameter of an effect as a hypothesis, a frequency or a yield curvature; None if it has none.
+def shapes_of(one: Hypothesis, longest: float) -> list[Hypothesis]:
+    """Shape parameters of an effect as hypotheses, one for each: a frequency, a yield curvature, a height.
 
     `longest` is the duration [s] of the longest run, which determines the resolution of a frequency.
     """
     if one.effect not in REGISTRY:
-        return None
-    directions: list[tuple[Direction, float]] = []
-    for quantity in quantities(REGISTRY[one.effect]):
-        key = f"effects.{one.effect}.{quantity.name}"
-        if key not in one.fixed or quantity.name not in {*REGISTRY[one.effect].probes, "frequency"}:
-            continue
-        value = one.fixed[key]
-        size, lowest = (
-            (HYPOTHESES.frequency_unit / longest, -1.0 / HYPOTHESES.frequency_unit)
-            if quantity.name == "frequency"
-            else (HYPOTHESES.shape_unit * value, -HYPOTHESES.shape_lower / HYPOTHESES.shape_unit)
-        )
-        bounds = sorted(((quantity.minimum - value) / size, (quantity.maximum - value) / size))
-        directions.append((Direction(key, {key: size}, HYPOTHESES.shape_prior, max(bounds[0], lowest), bounds[1]), value))
-    if not directions:
-        return None
-    direction, value = directions[0]
+        return []
+    probed = {*REGISTRY[one.effect].probes, "frequency", "height"} - {SIDE}
+    keys = {f"effects.{one.effect}.{each.name}": each for each in quantities(REGISTRY[one.effect]) if each.name in probed}
+    return [_shape(one, key, quantity, longest) for key, quantity in keys.items() if key in one.fixed]
+
+
+def _shape(one: Hypothesis, key: str, quantity: Quantity, longest: float) -> Hypothesis:
+    value = one.fixed[key]
+    size, lowest = {
+        "frequency": (HYPOTHESES.frequency_unit / longest, -1.0 / HYPOTHESES.frequency_unit),
+        "height": (HYPOTHESES.height_unit, -float("inf")),
+    }.get(quantity.name, (HYPOTHESES.shape_unit * value, -HYPOTHESES.shape_lower / HYPOTHESES.shape_unit))
+    bounds = sorted(((quantity.minimum - value) / size, (quantity.maximum - value) / size))
+    direction = Direction(key, {key: size}, HYPOTHESES.shape_prior, max(bounds[0], lowest), bounds[1])
     return Hypothesis(one.effect, (direction,), base=value)
 
 
 def shape_hypotheses(parts: Sequence[Hypothesis], longest: float) -> list[Hypothesis]:
     """Shape parameters of those effects whose shape is not fitted already, one hypothesis for each."""
     names = [part.effect for part in parts]
-    return [shape for part in parts if names.count(part.effect) == 1 and (shape := shape_hypothesis(part, longest))]
+    return [shape for part in parts if names.count(part.effect) == 1 for shape in shapes_of(part, longest)]
 
 
 def require_effects(names: Sequence[str]) -> None:
@@ -135,7 +133,7 @@ def hypotheses_named(effect: str, campaign: Campaign, frequencies: tuple[float, 
     if name not in known or (column and name not in INSTRUMENT):
         raise InputError(f"{effect}: not an effect; {suggestion(name, known)}")
     if name in REGISTRY:
-        return hypotheses_of_effect(REGISTRY[name], frequencies)
+        return hypotheses_of_effect(REGISTRY[name], frequencies, heights_tried(campaign.model))
     faults = [one for one in instrument_hypotheses(campaign.channels) if one.effect == name]
     found = [one for one in faults if not column or one.directions[0].name == f"effects.{effect}"]
     if not found:

@@ -44,6 +44,34 @@ MEANINGS = {
         "An end of the rope is attached beside the vertical through the side of the sheave. The rope hangs at an "
         "angle that changes with the position of the car."
     ),
+    "sheave_unbalance": (
+        "A mass off the axle makes the sheave heavier on one side. Once in each revolution its weight speeds the sheave "
+        "up and slows it down, and at speed its centrifugal force lifts the sheave."
+    ),
+    "jammed_seal": (
+        "A seal of the sheave's bearing sticks to the shaft and is wound up. The tensions of the two sides of the rope "
+        "differ the more, the further the car has gone from its start."
+    ),
+    "jammed_guide": (
+        "A guide of the sheave resists the more, the further the sheave is from its place. Its vertical motions are "
+        "smaller and faster than the model says."
+    ),
+    "sticky_guide": (
+        "The guides of the sheave hold until a larger force breaks them away, and then slide with less. The sheave stands still, "
+        "jumps, and stands still again."
+    ),
+    "rope_brush": (
+        "A brush or damper holds the rope sideways at a height in the shaft. The rope's oscillations decay faster and are smaller"
+        " there, on one side only."
+    ),
+    "rope_guide": (
+        "A guide, bracket or wall pushes the rope aside at a height in the shaft, and the rope rubs along it. Where it "
+        "stands the rope cannot swing back, on one side only."
+    ),
+    "encoder_scale": (
+        "The signal of the car's position shows more or less than the way of the car. The sheave turns more or less than "
+        "the model says, in proportion to the distance of each trip."
+    ),
     "sensor_gain": (
         "A channel shows values that are too large, too small or of the wrong sign. The rope itself moves as the "
         "model says."
@@ -93,6 +121,18 @@ _DETAILS = {
     '<path d="M160 44Q184 106 160 168"/>',
     "attachment_offset": '<path d="M60 30V168" stroke="var(--soft)" stroke-dasharray="4 4"/>'
     '<path d="M32 42L60 168"/><path class="both" d="M32 58H60"/>',
+    "sheave_unbalance": '<circle cx="132" cy="192" r="12" fill="var(--measured)"/><path d="M110 170L124 184"/>'
+    '<path class="arrow" d="M136 222A58 58 0 0 0 164 192"/>',
+    "jammed_seal": '<circle cx="110" cy="170" r="14" stroke-width="5"/>'
+    '<path d="M110 170m24 0a24 24 0 1 1 -24 -24a32 32 0 0 1 32 32a38 38 0 0 1 -38 38"/>',
+    "jammed_guide": '<path d="M96 128V214M124 128V214" stroke-width="4"/>'
+    '<path d="M110 175V184L102 188L118 194L102 200L118 206L102 212L110 216V226M98 228H122" stroke-width="3"/>',
+    "sticky_guide": '<path d="M96 128V214M124 128V214" stroke-width="4"/><path d="M84 86H138" stroke="var(--soft)"/>'
+    '<path d="M84 86V56Q88 72 104 72H138"/>',
+    "rope_brush": '<path d="M196 96V124M196 98H162M196 106H162M196 114H162M196 122H162"/>',
+    "rope_guide": '<path d="M148 86V134" stroke-width="8"/><path d="M160 44Q148 76 153 110T160 168"/>',
+    "encoder_scale": '<path d="M20 42V160M14 42H26M14 62H26M14 84H26M14 108H26M14 134H26M14 160H26"/>'
+    '<path class="both" d="M32 44V158"/>',
     "sensor_gain": f'{_SENSOR}{_WAVE}<path d="M80 82Q92 18 104 82T128 82T142 82"/>',
     "sensor_offset": f'{_SENSOR}{_WAVE}<path d="M80 64Q92 34 104 64T128 64T142 64"/>',
     "sensor_delay": f'{_SENSOR}{_WAVE}<path d="M89 82Q101 52 113 82T137 82"/>',

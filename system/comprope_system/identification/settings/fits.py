@@ -46,6 +46,12 @@ class Hypotheses:
         0.05, "periods per run", "unit of a frequency's coefficient; its lower bound is one period per run",
         f"bound: {CAMPAIGNS}, 415",
     )  # fmt: skip
+    heights: tuple[float, ...] = setting(
+        (0.02, 0.06, 0.14), "shaft heights",
+        "heights above the bottom landing at which brushes and guides of the rope are tried; fits move them",
+        f"{JUDGEMENT}: they stand in the pit and just above it, where the rope leaves the sheave",
+    )  # fmt: skip
+    height_unit: float = setting(0.5, "m", "unit of a height's coefficient", f"{JUDGEMENT}: half a rope guide's length")
     gain_unit: float = setting(0.02, "1", "unit of a gain error: that of a laser sensor", JUDGEMENT)
     gain_prior: float = setting(
         100.0, "units", "prior standard deviation of a gain: a wrong sign or unit is a gain too", JUDGEMENT
