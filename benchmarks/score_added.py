@@ -31,7 +31,8 @@ def named(said: Json) -> str:
 
 def intervals(found: Json, truth: Json) -> dict[str, list[float]]:
     """Fitted values whose truth is known, by key: value, deviation, 95 % interval and truth."""
-    known = {f"effects.{name}.{which}": size for name, values in truth["causes"].items() for which, size in values.items()}
+    hidden = truth.get("effects", truth["causes"])
+    known = {f"effects.{name}.{which}": size for name, values in hidden.items() for which, size in values.items()}
     known |= {key: truth["plant"][name] for key, name in PLANT.items()}
     fitted = found["plant"] | found["intervals"]
     return {

@@ -74,7 +74,7 @@ def score(folder: Path, jobs: int, limit: float, blind: bool, add: bool) -> Json
         copy = Path(room) / "campaign"
         shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("truth.json"))
         began = time.perf_counter()
-        ruled_out = [word for name in truth["causes"] for word in ("--without", name)] if blind else []
+        ruled_out = [word for name in hidden_effects(truth) for word in ("--without", name)] if blind else []
         status, said, errors = command(copy, "diagnose", ruled_out, jobs, limit)
         seconds = time.perf_counter() - began
         row = scored(folder, truth, status, said, errors) | {"seconds": seconds}
@@ -112,12 +112,18 @@ def first(truth: Json, said: Json) -> bool:
         return kind == "adequate" and not set(NAMED) & set(truth["causes"])
     if hidden in ("outside", TAKEN_OUT):
         return kind == "unknown_effect"
-    return said.get("verdict") in truth["causes"]
+    return said.get("verdict") in hidden_effects(truth)
 
 
 def grouped(truth: Json, said: Json) -> bool:
     """Whether the verdict is said to be indistinguishable from a hidden cause."""
-    return any(said.get("verdict") in pair and set(pair) & set(truth["causes"]) for pair in said.get("indistinguishable", []))
+    hidden = set(hidden_effects(truth))
+    return any(said.get("verdict") in pair and set(pair) & hidden for pair in said.get("indistinguishable", []))
+
+
+def hidden_effects(truth: Json) -> list[str]:
+    """The hidden causes as the library calls them."""
+    return list(truth.get("effects", truth["causes"]))
 
 
 def told(truth: Json, said: Json, errors: str) -> bool:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from comprope.rope.effects import REGISTRY
 from comprope.rope.model_file import load
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.prediction.replay import replay
@@ -225,6 +226,15 @@ def test_the_office_building_agrees_with_the_library(tmp_path):
 def test_heights_of_causes_go_with_the_shaft():
     low, high = (plants.draw_plan(1, ("brush",), site=SITES[name]).causes["brush"] for name in ("tower50", "high120"))
     assert high["brush_height"] == pytest.approx(2.4 * low["brush_height"]) and high["brush_side"] == low["brush_side"]
+
+
+def test_what_the_library_knows_is_called_as_the_library_calls_it():
+    known = {cause.effect or name for name, cause in CAUSES.items() if cause.kind == "known"}
+    assert known <= {name for name, effect in REGISTRY.items() if effect.hypothesis}
+    outside = {cause.effect or name for name, cause in CAUSES.items() if cause.kind == "outside"}
+    assert not outside & set(REGISTRY)
+    truth = {"kind": "known", "causes": {"brush": {}}, "effects": {"rope_brush": {}}}
+    assert score_campaigns.first(truth, SAID | {"verdict": "rope_brush"}) and not score_campaigns.first(truth, SAID)
 
 
 SAID = {"verdict": "a", "verdict_kind": "known_effect", "indistinguishable": [["a", "b"]], "ranking": []}

@@ -137,6 +137,7 @@ def write(plan: Plan, folder: Path) -> None:
     truth = {
         "site": site.name, "kind": plan.kind, "causes": plan.causes, "column": plan.column, "level": plan.level,
         "seed": plan.seed, "before": plan.before, "plant": plan.plant, "near": near(plan), "shift": shift,
+        "effects": {CAUSES[name].effect or name: values for name, values in plan.causes.items()},
     }  # fmt: skip
     (folder / "truth.json").write_text(json.dumps(truth, indent=1) + "\n", encoding="utf-8")
 

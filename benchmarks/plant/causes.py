@@ -1,7 +1,8 @@
 """All causes in one table: kind, what is drawn and from where, and what it does.
 
 Sizes go from barely visible to large. A cause acts by fields of `Tower`, on the `Excitation` (`ends.py`), on one channel
-(`instruments.py`), or on the files (`faults.py`). `near` names effects of the library that come close to it.
+(`instruments.py`), or on the files (`faults.py`). `effect` is the library's name of it where that differs; `near` names
+effects of the library that come close to one outside it.
 """
 
 from collections.abc import Mapping
@@ -45,6 +46,7 @@ class Cause:
     channel: Fault | None = None
     quantities: tuple[str, ...] = ()  # of the channels that it may hit
     near: tuple[str, ...] = ()
+    effect: str = ""
 
     def values(self, rng: np.random.Generator, tall: float, level: float | None = None) -> dict[str, float]:
         """All that the cause needs, drawn; sizes at `level` where it is given."""
@@ -54,10 +56,10 @@ class Cause:
 
 
 def tower(kind: str, size: Mapping[str, Draw], beside: Mapping[str, Draw] | None = None, near: tuple[str, ...] = (),
-          **renamed: str) -> Cause:  # fmt: skip
+          effect: str = "", **renamed: str) -> Cause:  # fmt: skip
     """A cause that is a matter of the tower's fields, `renamed` where the library has other names."""
     names = {**size, **(beside or {})}
-    return Cause(kind, size, beside or {}, {name: renamed.get(name, name) for name in names}, near=near)
+    return Cause(kind, size, beside or {}, {name: renamed.get(name, name) for name in names}, near=near, effect=effect)
 
 
 PHASE = Draw(0.0, TURN, even=True)
@@ -91,6 +93,25 @@ CAUSES: dict[str, Cause] = {
         "known", {"car": Draw(1e-3, 3e-2, signed=True), "counterweight": Draw(1e-3, 3e-2, signed=True)},
         excitation=ends.attachment_offset,
     ),
+    "encoder_scale": Cause("known", {"excess": Draw(1e-4, 1e-2, signed=True)}, excitation=ends.encoder_scale),
+    "unbalance": tower(
+        "known", {"unbalance": Draw(0.02, 1.5)}, {"unbalance_phase": PHASE}, effect="sheave_unbalance",
+    ),
+    "brush": tower(
+        "known", {"brush_stiffness": Draw(0.5, 1e3)},
+        {"brush_height": Draw(1.0, 9.0, tall=True), "brush_side": Draw(1.0, 1.0, signed=True), "brush_damping": Draw(1.0, 20.0)},
+        effect="rope_brush",
+    ),
+    "rubbing_wall": tower(
+        "known", {"wall_distance": Draw(3e-3, 4e-2)},
+        {"wall_height": Draw(3.0, 9.5, tall=True), "wall_side": Draw(1.0, 1.0, signed=True), "wall_stiffness": Draw(1e5, 4e5),
+         "wall_friction": Draw(0.1, 0.4)},
+        effect="rope_guide",
+    ),
+    "sticky_guide": tower(
+        "known", {"guide_coulomb": Draw(0.3, 30.0), "breakaway": Draw(0.6, 60.0)}, {"stribeck_velocity": Draw(1e-3, 4e-3)},
+    ),
+    "jammed_seal": tower("known", {"seal_stiffness": Draw(5e-3, 0.3)}),
     # the instrument; offset, drift and unit in SI
     "sensor_gain": Cause(
         "instrument", {"excess": Draw(0.02, 0.2, signed=True)}, channel=instruments.sensor_gain, quantities=EVERY
@@ -105,26 +126,19 @@ CAUSES: dict[str, Cause] = {
     "counterweight_bounce": Cause(
         "outside", {"frequency": Draw(5.0, 1.0)}, {"damping_ratio": Draw(0.01, 0.1)}, excitation=ends.counterweight_bounce,
     ),
-    "encoder_scale": Cause("outside", {"excess": Draw(1e-4, 1e-2, signed=True)}, excitation=ends.encoder_scale),
     "splice": Cause(
         "outside", {"excess": Draw(0.01, 0.2, signed=True)}, {"place": Draw(0.2, 0.8, even=True)}, excitation=ends.splice,
     ),
     "warming": Cause("outside", {"strain": Draw(4e-6, 2e-4, signed=True)}, excitation=ends.warming),
-    "unbalance": tower("outside", {"unbalance": Draw(0.02, 1.5)}, {"unbalance_phase": PHASE}, near=("sheave_eccentricity",)),
-    "brush": tower(
-        "outside", {"brush_stiffness": Draw(0.5, 1e3)},
-        {"brush_height": Draw(1.0, 9.0, tall=True), "brush_side": Draw(1.0, 1.0, signed=True), "brush_damping": Draw(1.0, 20.0)},
+    "car_bounce": Cause(
+        "outside", {"frequency": Draw(8.0, 1.5)}, {"damping_ratio": Draw(0.01, 0.1)}, excitation=ends.car_bounce,
+        near=("encoder_scale",),
     ),
-    "rubbing_wall": tower(
-        "outside", {"wall_distance": Draw(3e-3, 4e-2)},
-        {"wall_height": Draw(3.0, 9.5, tall=True), "wall_side": Draw(1.0, 1.0, signed=True), "wall_stiffness": Draw(1e5, 4e5),
-         "wall_friction": Draw(0.1, 0.4)},
+    "leaning_car": Cause(
+        "outside", {"size": Draw(1e-3, 4e-2, signed=True)}, {"frequency": Draw(1.0, 3.0)}, excitation=ends.leaning_car,
+        near=("attachment_offset",),
     ),
-    "sticky_guide": tower(
-        "outside", {"guide_coulomb": Draw(0.3, 30.0), "breakaway": Draw(0.6, 60.0)}, {"stribeck_velocity": Draw(1e-3, 4e-3)},
-        near=("guide_friction", "sheave_damper"),
-    ),
-    "jammed_seal": tower("outside", {"seal_stiffness": Draw(5e-3, 0.3)}),
+    "knock": Cause("outside", {"size": Draw(5e-4, 2e-2, signed=True)}, {"seconds": Draw(0.2, 0.8)}, excitation=ends.knock),
     "sloped_guide": tower("outside", {"guide_slope": Draw(0.1, 1.5, signed=True)}),
     # the data
     "sensor_drift": Cause(

@@ -52,13 +52,32 @@ def rail_waves(p: Tower, excitation: Excitation, by: Values, rng: np.random.Gene
 
 def counterweight_bounce(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """The counterweight bounces on its hoist rope, which the encoder does not see."""
-    ends, w, damping = excitation.ends.copy(), 2.0 * np.pi * by["frequency"], by["damping_ratio"]
-    driven = -ends[:, CW_X, 2]
-    system = ([[0.0, 1.0], [-w * w, -2.0 * damping * w]], [[0.0], [1.0]], [[1.0, 0.0]], [[0.0]])
-    _, _, states = lsim(system, driven, excitation.time)
-    ends[:, CW_X, 0] += states[:, 0]
-    ends[:, CW_X, 1] += states[:, 1]
-    ends[:, CW_X, 2] += driven - 2.0 * damping * w * states[:, 1] - w * w * states[:, 0]
+    ends = excitation.ends.copy()
+    ends[:, CW_X] += _oscillation(excitation.time, -ends[:, CW_X, 2], by["frequency"], by["damping_ratio"])
+    return replace(excitation, ends=ends)
+
+
+def car_bounce(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
+    """The car bounces on its hoist ropes, which an encoder at the machine does not see."""
+    ends = excitation.ends.copy()
+    ends[:, CAR_X] += _oscillation(excitation.time, -ends[:, CAR_X, 2], by["frequency"], by["damping_ratio"])
+    return replace(excitation, ends=ends)
+
+
+def leaning_car(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
+    """The car is pulled off its middle and leans in its guide shoes while it speeds up: `size` metres outward per m/s2."""
+    ends, rate = excitation.ends.copy(), 2.0 * np.pi * by["frequency"]
+    ends[:, CAR_Y] += _oscillation(excitation.time, rate**2 * by["size"] * ends[:, CAR_X, 2], by["frequency"], 0.5)
+    return replace(excitation, ends=ends)
+
+
+def knock(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
+    """Once in each run somebody moves in the car and pushes it aside, at any time."""
+    ends, time = excitation.ends.copy(), excitation.time
+    w = 2.0 * np.pi / by["seconds"]
+    half = 0.5 * np.clip(w * (time - rng.uniform(max(time[0], 0.0), time[-1] - by["seconds"])), 0.0, 2.0 * np.pi)
+    s, c = np.sin(half), np.cos(half)
+    ends[:, CAR_Y] += by["size"] * np.stack([s**4, 2.0 * w * s**3 * c, w * w * s * s * (3.0 * c * c - s * s)], axis=-1)
     return replace(excitation, ends=ends)
 
 
@@ -79,6 +98,14 @@ def splice(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generato
 def warming(p: Tower, excitation: Excitation, by: Values, rng: np.random.Generator) -> Excitation:
     """The rope lengthens or shortens with temperature, by the same strain every minute."""
     return replace(excitation, thermal=by["strain"] * (excitation.time - excitation.time[0]) / 60.0)
+
+
+def _oscillation(time: Floats, driven: Floats, frequency: float, damping_ratio: float) -> Floats:
+    """Motion [k, 3] of an oscillator by what drives it [k], an acceleration, from rest."""
+    w = 2.0 * np.pi * frequency
+    system = ([[0.0, 1.0], [-w * w, -2.0 * damping_ratio * w]], [[0.0], [1.0]], [[1.0, 0.0]], [[0.0]])
+    _, _, states = lsim(system, driven, time)
+    return np.column_stack([states, driven - 2.0 * damping_ratio * w * states[:, 1] - w * w * states[:, 0]])
 
 
 def _swayed(p: Tower, excitation: Excitation, wave: Floats) -> Excitation:

@@ -27,7 +27,8 @@ _DESCRIPTION = (
     "Elevator compensation rope on a free sheave: lateral displacement at sensors and sheave force, from the car's and "
     "the counterweight's positions"
 )
-_PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in ("shaft", "sheave", "element", "ends", "guides"))
+_NAMES = ("shaft", "sheave", "element", "ends", "guides")
+_PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in _NAMES)
 _RISE, _RISE_TIME = 2.0, 4.0  # m, s, of the simulation kept as a reference
 _STEP = 0.01  # s, default communication step of an importer
 
