@@ -22,6 +22,7 @@ from scipy.sparse import coo_array, csc_array
 
 from comprope.rope.mechanics import (
     axial_law,
+    base_motion,
     contact_law,
     contact_tangent,
     effect_hooks,
@@ -100,7 +101,7 @@ def _tangent(rope: CompensationRope, p: Floats, ck: float, cc: float) -> tuple[F
 def _interpreted() -> dict[str, Any]:
     """The kernels without effects as interpreted Python functions on lists: faster than compilation for two calls."""
     modules = (
-        effect_hooks, axial_law, internal_forces, internal_tangent, contact_law, contact_tangent, sheave_contact,
+        effect_hooks, axial_law, base_motion, internal_forces, internal_tangent, contact_law, contact_tangent, sheave_contact,
         equations_of_motion,
     )  # fmt: skip
     names = {key: value for module in modules for key, value in vars(module).items()}

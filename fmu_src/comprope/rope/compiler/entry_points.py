@@ -37,6 +37,7 @@ from ..integration import (
 from ..linalg import block_band, bordered_band, multi_rhs
 from ..mechanics import (
     axial_law,
+    base_motion,
     contact_law,
     contact_tangent,
     effect_hooks,
@@ -63,9 +64,9 @@ from ..sensitivity import static_equilibrium as static_equilibrium_derivatives
 from .codegen import hook_source, lacks_tangents
 
 MODULES = (
-    kernel_arguments, array_layout, status, axial_law, internal_forces, internal_tangent, contact_law, contact_tangent,
-    sheave_contact, end_conditions, equations_of_motion, block_band, bordered_band, newmark, energy, run_record, time_stepping,
-    static_equilibrium, mesh, initial_state, input_interpolation, sensors, outputs, simd, multi_rhs,
+    kernel_arguments, array_layout, status, axial_law, base_motion, internal_forces, internal_tangent, contact_law,
+    contact_tangent, sheave_contact, end_conditions, equations_of_motion, block_band, bordered_band, newmark, energy,
+    run_record, time_stepping, static_equilibrium, mesh, initial_state, input_interpolation, sensors, outputs, simd, multi_rhs,
     internal_force_derivatives, sheave_contact_derivatives, directions, effect_derivatives, end_condition_derivatives,
     force_derivatives, newmark_derivatives, sensor_derivatives, static_equilibrium_derivatives,
 )  # fmt: skip

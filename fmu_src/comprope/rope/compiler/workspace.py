@@ -62,7 +62,8 @@ class RopeWorkspace:
 
 def empty_ends() -> Ends:
     """Inputs, their samples, options and path of the ends: zeros."""
-    return Ends(samples=np.zeros(INPUT_MEMORY), path=np.zeros(PATHS * PATH), u=np.zeros(INPUTS), options=np.zeros(2))
+    samples, path, u = np.zeros(INPUT_MEMORY), np.zeros(PATHS * PATH), np.zeros(INPUTS)
+    return Ends(samples, path, u, options=np.zeros(2), base=np.zeros(2))
 
 
 def empty_workspace(m: int, effects: int, state: State) -> Workspace:

@@ -1,9 +1,9 @@
 """The last samples of the ends' inputs, and the path of the ends that is interpolated from them.
 
 The array `samples` holds the times of the last four samples [s], the samples of each path, where each path has got to
-(position, velocity, acceleration), and the time put off [s] to the next step. All but the last sample are at least
-SHORTEST_HORIZON apart. `options` says whether velocities and accelerations are given, and whether inputs hold for the end of
-the step. See `simulator.end_motion`.
+(position, velocity, acceleration), the time put off [s] to the next step, and the last acceleration of the base. All but the
+last sample are at least SHORTEST_HORIZON apart. `options` says whether velocities and accelerations are given, and whether inputs
+hold for the end of the step. See `simulator.end_motion`.
 """
 
 from ...kernels.jit import kernel
@@ -11,13 +11,14 @@ from ..mechanics.end_conditions import PATH, PATHS, follow
 from ..runtime.kernel_arguments import Ends, RopeData, Workspace
 from ..runtime.parameter_vector import R
 from ..runtime.status import SUCCESS, TOO_FAR, TOO_FAST
-from .inputs import CAR, CAR_OUT, CAR_V, COUNTERWEIGHT, COUNTERWEIGHT_OUT, COUNTERWEIGHT_V
+from .inputs import BASE_A, CAR, CAR_OUT, CAR_V, COUNTERWEIGHT, COUNTERWEIGHT_OUT, COUNTERWEIGHT_V
 
 SAMPLES = 4
 NEWEST = SAMPLES - 1
 REACHED = SAMPLES + PATHS * SAMPLES
 DEFERRED = REACHED + PATHS * 3
-INPUT_MEMORY = DEFERRED + 1
+BASE_REACHED = DEFERRED + 1
+INPUT_MEMORY = BASE_REACHED + 1
 DERIVATIVES, AT_END = range(2)  # entries of `options`
 
 # Of each path (car x, car y, counterweight x, counterweight y): its input, and how that becomes x (down) or y.
@@ -52,6 +53,7 @@ def start_inputs(rope: RopeData, ends: Ends, t: float) -> None:
         past[REACHED + 3 * k + 1] = 0.0
         past[REACHED + 3 * k + 2] = 0.0
     past[DEFERRED] = 0.0
+    past[BASE_REACHED] = u[BASE_A]
 
 
 @kernel
@@ -131,6 +133,15 @@ def check_motion(rope: RopeData, ends: Ends, work: Workspace, t: float, dt: floa
 
 
 @kernel
+def interpolate_base(ends):
+    """Set the base's acceleration at both ends of the path: linear to an input of its end; one of its start is held."""
+    now = ends.u[BASE_A]
+    ends.base[0] = ends.samples[BASE_REACHED] if ends.options[AT_END] != 0.0 else now
+    ends.base[1] = now
+    ends.samples[BASE_REACHED] = now
+
+
+@kernel
 def interpolate_inputs(rope: RopeData, ends: Ends, t: float, dt: float) -> float:
     """Set the path of the ends up to t + dt [s]; they are at its end afterwards.
 
@@ -143,6 +154,7 @@ def interpolate_inputs(rope: RopeData, ends: Ends, t: float, dt: float) -> float
         return 0.0
     past[DEFERRED] = 0.0
     store_sample(p, u, t + dt if options[AT_END] != 0.0 else t, past)
+    interpolate_base(ends)
     horizon = max(duration, SHORTEST_HORIZON)
     for k in range(PATHS):
         for j in range(3):

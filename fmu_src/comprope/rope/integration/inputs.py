@@ -1,5 +1,6 @@
-"""Indices of the rope's inputs: heights, velocities, accelerations and lateral displacements of its ends."""
+"""Indices of the rope's inputs: motion of its ends, and acceleration of the building's base."""
 
-# Inputs of the ends: heights [m], velocities, accelerations (up positive), outward displacements [m].
-CAR, COUNTERWEIGHT, CAR_V, CAR_A, COUNTERWEIGHT_V, COUNTERWEIGHT_A, CAR_OUT, COUNTERWEIGHT_OUT = range(8)
-INPUTS = 8
+# Heights of the ends [m], their velocities and accelerations (up positive), their outward displacements [m], and the acceleration
+# of the base towards the counterweight's side [m/s2].
+CAR, COUNTERWEIGHT, CAR_V, CAR_A, COUNTERWEIGHT_V, COUNTERWEIGHT_A, CAR_OUT, COUNTERWEIGHT_OUT, BASE_A = range(9)
+INPUTS = 9

@@ -7,7 +7,7 @@ from ..mechanics.end_conditions import PATH
 from ..mechanics.energy import update_balance
 from ..mechanics.run_record import SLACK_NOW, pushed_segments, record_step
 from ..runtime.kernel_arguments import Directions, Ends, Motion, RopeData, State, TimeStep, Workspace
-from ..runtime.parameter_vector import ELEMENT, RATIO, slot
+from ..runtime.parameter_vector import BASE, BASE_BEFORE, ELEMENT, RATIO, slot
 from ..runtime.status import LOST, LOST_AT_SHEAVE, SUCCESS, TOO_MANY_STEPS
 from .derivative_hook import advance_directions
 from .newmark import HALVED, MOST_HALVINGS, STEPS, WORST, copy, newmark_step
@@ -32,7 +32,8 @@ def advance(
     steps = number_of_steps(dt, p, ends.path, t0, work.message)
     if steps == 0:
         return TOO_MANY_STEPS
-    reached = take_steps(rope, ends.path, dt, steps, state, motion, work, directions)
+    reached = take_steps(rope, ends, dt, steps, state, motion, work, directions)
+    p[BASE], p[BASE_BEFORE] = 0.0, 0.0
     if reached == 1.0:
         state.time[0] = t0 + dt
         return SUCCESS
@@ -40,13 +41,13 @@ def advance(
 
 
 @kernel
-def take_steps(rope, path, dt, steps, state, motion, work, directions):
+def take_steps(rope, ends, dt, steps, state, motion, work, directions):
     """Advance the state by dt in `steps` equal time steps; one that does not converge is halved.
 
     Returns the fraction of dt that was reached: 1 when all went well. Time is always that of the start plus a
     fraction of dt, never a running sum. The rope is a rod in steps without slack: iterates on the way to a taut rope may push.
     """
-    t0, p = state.time[0], rope.p
+    t0, p, path, base = state.time[0], rope.p, ends.path, ends.base
     ratio = p[RATIO]
     for k in range(steps):
         done, depth, slack = 0.0, 0, state.record[SLACK_NOW] > 0.0
@@ -55,6 +56,8 @@ def take_steps(rope, path, dt, steps, state, motion, work, directions):
             s = (k + done + size) / steps
             step = TimeStep(t0 + s * dt, size * dt / steps, dt, s, slack)
             p[RATIO] = ratio if slack else 1.0
+            p[BASE_BEFORE] = base[0] + (k + done) / steps * (base[1] - base[0])
+            p[BASE] = base[0] + s * (base[1] - base[0])
             if newmark_step(rope.n, p, path, step, state, motion, work):
                 if not slack and ratio != 1.0 and pushed_segments(rope.n, p, work.w) > 0:
                     slack, size = True, min(size, slack_share(dt / steps))

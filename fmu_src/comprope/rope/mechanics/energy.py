@@ -11,8 +11,9 @@ from math import sqrt
 
 from ...kernels.jit import kernel
 from ..runtime.array_layout import BEND_RATE, CURVATURE, ELASTIC, FRICTION_LOSS, INVERSE, NORMAL_LOSS, SHARE, TENSION, TX, TY
-from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
+from ..runtime.parameter_vector import BASE, BASE_BEFORE, CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
 from .axial_law import elastic_energy, slack_balance
+from .base_motion import base_work
 
 STORED = ("kinetic", "gravity", "tension", "bending", "contact", "sheave")
 SPENT = ("axial_damping", "bending_damping", "external_damping", "contact_damping", "friction")
@@ -114,6 +115,8 @@ def update_balance(rope, step, state, motion, work):
     moved = 0.5 * (P0[0] + P[0]) * (q[0] - q0[0]) + 0.5 * (P0[1] + P[1]) * (q[m] - q0[m])
     moved += 0.5 * (P0[2] + P[2]) * (q[n - 1] - q0[n - 1])
     moved += 0.5 * (P0[3] + P[3]) * (q[m + n - 1] - q0[m + n - 1])
+    if p[BASE] != 0.0 or p[BASE_BEFORE] != 0.0:
+        moved += base_work(n, p, p[BASE] if step.slack else 0.5 * (p[BASE_BEFORE] + p[BASE]), q0, q)
     E[ENDS_WORK] += moved
     for k in range(5 + effects):
         E[LOSSES + k] += 0.5 * h * (P0[END_FORCES + k] + P[END_FORCES + k])

@@ -6,7 +6,8 @@ Effects act through the functions of `effect_hooks`.
 from ...kernels.jit import kernel
 from ..runtime.array_layout import DXX, DXY, DYY
 from ..runtime.kernel_arguments import Motion, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import ELEMENT, RHO, G, J, M
+from ..runtime.parameter_vector import BASE, ELEMENT, RHO, G, J, M
+from .base_motion import add_base_inertia
 from .effect_hooks import all_forces, all_moments, all_tangents
 from .internal_forces import bend, stretch, sum_forces
 from .internal_tangent import assemble, bending_stiffness, fix_end_rows, segment_blocks
@@ -24,6 +25,8 @@ def forces(n, t, p, motion, h0, work, weights, tangent):
     bend(n, p, w)
     all_moments(n, p, w, h0, work.history, work.power)
     sum_forces(n, p, v, w, f)
+    if p[BASE] != 0.0:
+        add_base_inertia(n, p, f)
     f[n] = p[M] * p[G]
     f[m + n] = 0.0
     add_contact(n, p, motion, work, weights, tangent)

@@ -70,6 +70,7 @@ class Ends(NamedTuple):
     path: Array  # see `end_conditions`
     u: Array  # inputs, see `inputs`
     options: Array  # see `input_interpolation`
+    base: Array  # acceleration of the building's base [m/s2] at the start and at the end of the path
 
 
 class Workspace(NamedTuple):

@@ -1,8 +1,9 @@
 """The flat parameter vector that the kernels read: one slot for each declared quantity.
 
 Slots are compile-time constants in the kernels. Base components come first, then effects in the
-order in which they register. Derived are `element`, since the mesh makes the natural length exact, and one rope's share of the
-sheave's mass and inertia, with which the kernels compute.
+order in which they register. Derived are `element`, since the mesh makes the natural length exact, one rope's share of the
+sheave's mass and inertia, with which the kernels compute, and the acceleration of the building's base, which is zero outside
+of the time steps.
 """
 
 from collections.abc import Mapping
@@ -29,6 +30,10 @@ DECLARED["derived.element"] = Quantity("element", "m", "exact element length", 0
 for _name in ("mass", "inertia"):
     _whole = DECLARED[f"sheave.{_name}"]
     DECLARED[f"derived.{_name}_per_rope"] = replace(_whole, name=f"{_name}_per_rope", help=f"one rope's share of the {_name}")
+for _name, _when in (("acceleration", "at the end of a time step"), ("acceleration_before", "at its start")):
+    DECLARED[f"derived.base_{_name}"] = Quantity(
+        f"base_{_name}", "m/s2", f"acceleration of the building's base {_when}", -100.0, 100.0, 0.0, 1.0, None
+    )
 
 
 def slot(name: str) -> int:
@@ -64,3 +69,5 @@ SWITCH = slot("sheave.limit_switch")
 PIT = slot("shaft.pit")
 HEIGHT = slot("shaft.height")
 ELEMENT = slot("derived.element")
+BASE = slot("derived.base_acceleration")
+BASE_BEFORE = slot("derived.base_acceleration_before")

@@ -114,7 +114,7 @@ class RopeSimulator:
         path, duration = self.motion.path(time, dt, inputs)
         if duration > 0.0:
             self.rope.state.time[0] = time - (duration - dt)
-            self.rope.step(duration, path)
+            self.rope.step(duration, path, self.motion.base)
 
     def outputs(self) -> Mapping[str, Value]:
         """All outputs by name at the current time."""

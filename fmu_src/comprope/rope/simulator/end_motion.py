@@ -25,6 +25,7 @@ NAMES = (
     *(f"{end}_position" for end in ENDS),
     *(f"{end}_{rate}" for end in ENDS for rate in ("velocity", "acceleration")),
     *(f"{end}_lateral_displacement" for end in ENDS),
+    "base_acceleration",
 )
 
 
@@ -64,6 +65,11 @@ class EndMotion:
         require_success(self._check(t=time, dt=dt), self._work.message)
         duration = self._interpolate(t=time, dt=dt)
         return self._ends.path.copy(), duration
+
+    @property
+    def base(self) -> tuple[float, float]:
+        """Acceleration of the building's base [m/s2] at the start and at the end of the last path."""
+        return float(self._ends.base[0]), float(self._ends.base[1])
 
     def to_bytes(self) -> bytes:
         """The whole memory."""

@@ -79,13 +79,15 @@ class CompensationRope:
 
     # -- in motion -------------------------------------------------------------------------------
 
-    def step(self, dt: float, path: Array) -> None:
+    def step(self, dt: float, path: Array, base: tuple[float, float] = (0.0, 0.0)) -> None:
         """Advance by dt [s] while the ends follow `path` (see `end_conditions`; PATHS * PATH numbers).
 
+        `base` is the acceleration of the building's base towards the counterweight's side [m/s2] at the start and at the end.
         Raises SimulationError where a time step did not converge even when halved; the state is then that
         of the last accepted one.
         """
         self.workspace.ends.path[:] = path
+        self.workspace.ends.base[:] = base
         self.require_success(self.workspace.advance(dt=dt))
 
     def require_success(self, status: float) -> None:

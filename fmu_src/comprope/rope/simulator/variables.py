@@ -108,7 +108,8 @@ def _inputs(model: Base) -> tuple[Variable, ...]:
         Variable(f"{end}_lateral_displacement", "real", "input", "outward displacement of that end", "m", 0.0, -5.0, 5.0, 0.01)
         for end in ENDS
     ]
-    return (*positions, *rates, *outward)
+    base = "acceleration of the building's base towards the counterweight's side; displacements are those relative to the base"
+    return (*positions, *rates, *outward, Variable("base_acceleration", "real", "input", base, "m/s2", 0.0, -50.0, 50.0, 1.0))
 
 
 def _outputs(sensors: int) -> tuple[Variable, ...]:
