@@ -11,6 +11,7 @@ from comprope.drive.cosimulation import interface as drive_interface
 from comprope.drive.parameters import Drive
 from comprope.fmi.model_interface import ModelInterface
 from comprope.quantities import Quantity, quantities
+from comprope.rope.building import Building
 from comprope.rope.effects import INSTRUMENT, REGISTRY
 from comprope.rope.model_file import load
 from comprope.rope.parameters import Sensor
@@ -75,7 +76,8 @@ def _symbols(rope: ModelInterface) -> str:
 def _model_file() -> str:
     introduction = "Tables of a model file. Without a default a quantity must be given. FMU parameters have the same names."
     tables = [_quantities(f"`[{name}]`", component) for name, component in COMPONENTS.items()]
-    return "\n".join([f"## Model file\n\n{introduction}\n", *tables, _fields("`[[sensors]]`", Sensor, 3)])
+    others = (_fields("`[[sensors]]`", Sensor, 3), _fields("`[building]`", Building, 3))
+    return "\n".join([f"## Model file\n\n{introduction}\n", *tables, *others])
 
 
 def _effects() -> str:
@@ -102,7 +104,7 @@ def _campaign() -> str:
 
 def _columns() -> str:
     rows = [("`time`", "s", "from the start of the simulation")]
-    rows += [(f"`{one.name}`", one.unit, one.help) for one in columns(("NAME",), driven=True)]
+    rows += [(f"`{one.name}`", one.unit, one.help) for one in columns(("NAME",), driven=True, moving=True)]
     introduction = "What `comprope simulate --out FILE.csv` writes; `NAME` stands for each sensor's name."
     return _section("Columns of a simulated trip", introduction, ("column", "unit", ""), rows)
 

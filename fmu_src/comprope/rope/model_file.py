@@ -10,6 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from .. import consent
 from ..atomic_files import atomic_write, read_text_file
 from ..errors import InputError
 from ..validation_messages import validation_problems
@@ -26,6 +27,8 @@ def load(path: str | Path, *, allow_code: bool = False) -> RopeModel:
     table = read_toml(path)
     if files := _own_files(table):
         table["own_effects"] = _run_files([Path(path).parent / file for file in files], str(path), allow_code)
+    if record := _record(table):
+        table["building"]["record"] = _found_record(Path(path).parent, record, str(path))
     return validated(table, str(path))
 
 
@@ -39,6 +42,8 @@ def dump(model: RopeModel, path: str | Path, comment: str = "") -> None:
     table = as_table(model)
     if model.own_effects:
         table["own_effects"] = [_seen_from(Path(path).resolve().parent, file) for file in model.own_effects]
+    if record := _record(table):
+        table["building"]["record"] = _seen_from(Path(path).resolve().parent, record)
     sensors = table.pop("sensors", [])
     blocks = [tomli_w.dumps(table)] + [f"\n[[sensors]]\n{tomli_w.dumps(sensor)}" for sensor in sensors]
     printable = ("".join(letter if letter.isprintable() else " " for letter in line) for line in comment.splitlines())
@@ -87,11 +92,14 @@ def as_table(model: RopeModel) -> dict[str, Any]:
 
 
 def bundle(model: RopeModel) -> dict[str, bytes]:
-    """Files of a model for an FMU, by path: model.toml and the files of user-defined effects."""
+    """Files of a model for an FMU, by path: model.toml and the files of user-defined effects.
+
+    An FMU has the building's motion as inputs, and no record.
+    """
     with TemporaryDirectory() as folder:
         inside = Path(folder).resolve()
         renamed = [inside / "own_effects" / f"{k}_{Path(file).name}" for k, file in enumerate(model.own_effects, 1)]
-        dump(model.model_copy(update={"own_effects": tuple(map(str, renamed))}), inside / "model.toml")
+        dump(model.model_copy(update={"own_effects": tuple(map(str, renamed)), "building": None}), inside / "model.toml")
         files = {"model.toml": (inside / "model.toml").read_bytes()}
     for old, new in zip(model.own_effects, renamed, strict=True):
         files[new.relative_to(inside).as_posix()] = user_effects.FILES[old].text.encode()
@@ -102,6 +110,24 @@ def _own_files(table: Mapping[str, Any]) -> list[str]:
     """The value of own_effects; empty if it is not a list of strings, which is reported by the validation."""
     files = table.get("own_effects", ())
     return list(files) if isinstance(files, list | tuple) and all(isinstance(one, str) for one in files) else []
+
+
+def _record(table: Mapping[str, Any]) -> str | None:
+    """The value of building.record; None if there is none, or it is no text, which is reported by the validation."""
+    building = table.get("building")
+    record = building.get("record") if isinstance(building, Mapping) else None
+    return record if isinstance(record, str) else None
+
+
+def _found_record(folder: Path, record: str, source: str) -> str:
+    """The absolute path of a record; raises `InputError` for one outside of the model's folder without consent."""
+    found = (folder / record).resolve()
+    if not found.is_relative_to(folder.resolve()) and not consent.outside_given():
+        raise InputError(
+            f"{source}: building.record = {record}: lies outside of the model's folder; copy it there, or allow it: comprope "
+            "--allow-outside COMMAND ..."
+        )
+    return str(found)
 
 
 def _run_files(files: Iterable[Path], source: str, allow_code: bool = False) -> list[str]:

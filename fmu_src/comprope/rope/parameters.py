@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field, field_validator, model_validator
 
 from ..quantities import Component, quantity
+from .building import Building
 
 DEFAULT_STEP = 0.004
 
@@ -106,6 +107,7 @@ class Base(Component):
     contact: Contact
     solver: Solver = Solver()
     sensors: tuple[Sensor, ...] = ()
+    building: Building | None = None
 
     @property
     def rope_length(self) -> float:

@@ -26,6 +26,13 @@ def read_model(model: ModelInput, changes: Changes | None = None) -> RopeModel:
     return with_changes(loaded, *by_key(changes))
 
 
+def require_still_building(model: RopeModel, purpose: str) -> RopeModel:
+    """The model; raises `InputError` for one with `[building]` where its record is not replayed."""
+    if model.building is not None:
+        raise InputError(f"building: accepted by `comprope simulate` alone; {purpose} takes a building at rest: remove the table")
+    return model
+
+
 def model_name(model: ModelInput) -> str:
     """Name of the model in reports: the given file or preset."""
     return "model" if isinstance(model, RopeModel) else str(model)

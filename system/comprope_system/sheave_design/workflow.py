@@ -16,7 +16,7 @@ from comprope.rope.model_file import as_table
 from ..parallel.executors import workers
 from ..parallel.progress import Progress, no_progress
 from ..parallel.sweep import sweep, values
-from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model
+from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model, require_still_building
 from ..presets.overrides import Changes
 from ..reduced_model.swing import SIDES, observation_time
 from ..studies.design import TOLERANCE
@@ -82,7 +82,8 @@ def design(
     concurrent.futures, or "dask://HOST:PORT"), else on `jobs` processes, 1 being this one and None one for each core. Raises
     `InputError` for bad input or a limit that no sheave keeps.
     """
-    options, given = options or DesignOptions(), read_model(model, changes).model_copy(update={"sensors": ()})
+    options = options or DesignOptions()
+    given = require_still_building(read_model(model, changes), "the design").model_copy(update={"sensors": ()})
     height, sway = given.shaft.height, options.sway
     tables = {"shaft": {"height": height}, "trip": {"start_position": 0.0, "destination": height}}
     profile = read_drive(drive, model, tables).profile

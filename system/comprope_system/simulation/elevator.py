@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from comprope.drive.cosimulation import interface as drive_interface
@@ -11,7 +11,10 @@ from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.effects import RopeModel
 from comprope.rope.simulator.cosimulation import interface as rope_interface
 
+from ..building.motion import BuildingMotion
 from ..cosim import Connection, Participant
+from ..cosim.building_ends import OUTPUTS as BUILDING
+from ..cosim.building_ends import POSITIONS, BuildingEnds
 from ..cosim.fmu_cache import NamedFmus
 from ..cosim.fmu_participant import FmuParticipant
 from ..cosim.in_process_participant import InProcessParticipant
@@ -21,6 +24,10 @@ MOTIONS = tuple(f"{end}_{what}" for end in ("car", "counterweight") for what in 
 TENSIONS = ("car_end_tension", "counterweight_end_tension")
 FORWARD = tuple(Connection("motion", one, "rope", one) for one in MOTIONS)
 BACKWARD = tuple(Connection("rope", one, "motion", one) for one in TENSIONS)
+SWAYED = (
+    *(Connection("motion", one, "building", one) for one in POSITIONS),
+    *(Connection("building", one, "rope", one) for one in BUILDING),
+)
 # The rope's inputs are the drive's outputs of the same step, velocities and accelerations included.
 ROPE_INPUTS = {"inputs_at_end": True, "derivative_inputs": True}
 OWN_FMUS = NamedFmus()
@@ -28,11 +35,22 @@ OWN_FMUS = NamedFmus()
 
 @dataclass(frozen=True)
 class Elevator:
-    """The participants in their order of stepping, and their connections; `driven`: by a drive, not as measured."""
+    """The participants in their order of stepping, and their connections.
+
+    `driven`: by a drive, not as measured; `moving`: in a building that moves.
+    """
 
     participants: tuple[Participant, ...]
     connections: tuple[Connection, ...]
     driven: bool
+    moving: bool = False
+
+
+def in_building(elevator: Elevator, motion: BuildingMotion) -> Elevator:
+    """The elevator in a building that moves; the building steps between drive and rope."""
+    *before, rope = elevator.participants
+    ends: Participant = BuildingEnds("building", motion)
+    return replace(elevator, participants=(*before, ends, rope), connections=elevator.connections + SWAYED, moving=True)
 
 
 @contextmanager

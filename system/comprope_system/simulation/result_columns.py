@@ -56,13 +56,23 @@ ROPE = (
     _rope("limit_switch_time", "s", "time at which it tripped; -1 if it has not"),
 )
 
+BUILDING = tuple(
+    Column(name, unit, help, "building", name)
+    for name, unit, help in (
+        ("car_lateral_displacement", "m", "of the rope's end under the car with the building, outward, relative to its base"),
+        ("counterweight_lateral_displacement", "m", "the same under the counterweight"),
+        ("base_acceleration", "m/s2", "of the building's base, towards the counterweight's side"),
+    )
+)
 
-def columns(sensors: Sequence[str], driven: bool) -> list[Column]:
-    """Columns of a trip with these sensors, in the order of the file; `driven`: by the drive, not by measured motion.
+
+def columns(sensors: Sequence[str], driven: bool, moving: bool = False) -> list[Column]:
+    """Columns of a trip with these sensors, in the order of the file; `driven`: by the drive, not by measured motion;
+    `moving`: in a building that moves.
 
     Raises `InputError` if a sensor has the name of another column.
     """
-    fixed = [*MOTION, *ROPE, *([TORQUE] if driven else [])]
+    fixed = [*MOTION, *ROPE, *([TORQUE] if driven else []), *(BUILDING if moving else ())]
     if taken := sorted(set(sensors) & {"time", *(one.name for one in fixed)}):
         raise InputError(f"sensors: the name {taken[0]} is that of another column; choose another name")
     lateral = [

@@ -1,7 +1,7 @@
 """One trip from start to end: run the elevator, record its columns, sum it up."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, inf
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,9 @@ import pandas as pd
 
 from comprope.atomic_files import atomic_write
 from comprope.errors import InputError
+from comprope.rope.parameters import Base
 
+from ..building.motion import BuildingMotion
 from ..cosim import Sample, co_simulate
 from ..cosim.master import Coupling
 from .elevator import Elevator
@@ -62,7 +64,7 @@ def simulate(elevator: Elevator, sensors: Sequence[str], timing: Timing, progres
 
     `sensors` are the names of the model's sensors in their order; `progress(count, total)` is called after each step.
     """
-    chosen = columns(sensors, elevator.driven)
+    chosen = columns(sensors, elevator.driven, elevator.moving)
     rows = []
     before = timing.steps_before * timing.step
     for sample in co_simulate(
@@ -74,6 +76,15 @@ def simulate(elevator: Elevator, sensors: Sequence[str], timing: Timing, progres
             progress(sample.count, sample.total)
     table = pd.DataFrame(rows, columns=["time", *(one.name for one in chosen)])
     return Simulated(table, tuple(chosen), tuple(sensors))
+
+
+def relative_to_building(simulated: Simulated, model: Base, motion: BuildingMotion) -> Simulated:
+    """The trip as sensors see it that are fixed to the building, and move with it at their heights."""
+    table, times = simulated.table.copy(), simulated.table["time"].to_numpy()
+    for sensor in model.sensors:
+        outward = 1.0 if sensor.side == "counterweight" else -1.0
+        table[sensor.name] -= outward * motion.displacements([sensor.height], times)[:, 0]
+    return replace(simulated, table=table)
 
 
 def _row(sample: Sample, chosen: Sequence[Column], sensors: Sequence[str]) -> list[Any]:

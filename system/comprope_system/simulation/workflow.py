@@ -16,6 +16,7 @@ from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import RopeSimulator
 from comprope.rope.simulator.rope import CompensationRope
 
+from ..building.record import BuildingRecord, building_record
 from ..cosim.fmu_cache import NamedFmus
 from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.master import Coupling
@@ -24,12 +25,12 @@ from ..presets import model_path
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
 from ..presets.overrides import Changes, by_key
 from .animation.frames import FrameRecorder
-from .elevator import OWN_FMUS, Elevator, driven_elevator, prescribed_elevator
+from .elevator import OWN_FMUS, Elevator, driven_elevator, in_building, prescribed_elevator
 from .measured_run import MotionWishes, Run, measured_timing, read_run
 from .result import SimulationResult
 from .stop import LARGEST, Stop, braking
 from .stop_motion import Trajectory, stopped_motions
-from .trip_simulation import Timing
+from .trip_simulation import Timing, relative_to_building
 from .trip_simulation import simulate as simulate_trip
 
 BEYOND = 1e5  # m, destination of a car that does not stop by itself
@@ -97,9 +98,13 @@ def simulate(
     else:
         elevator, natural = _driven(model, motion, rope_model, drive_changes, fmus)
         timing = Timing(natural if duration is None else duration, step, coupling)
-    with elevator as ready:
+    building = _moving_building(rope_model, measured, timing)
+    with elevator as found:
+        ready = in_building(found, building.motion) if building else found
         recorder = None if fmus else FrameRecorder(partial(_rope, ready), timing.step)
         simulated = simulate_trip(ready, names, timing, partial(_advance, progress, recorder, timing.steps_before))
+    if building:
+        simulated, remarks = relative_to_building(simulated, rope_model, building.motion), (*remarks, *building.remarks)
     recording = recorder.recording if recorder else None
     return SimulationResult(
         simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording, remarks
@@ -113,6 +118,16 @@ def _measured(motion: CarMotion, model: RopeModel, sensors: Sequence[str]) -> Ru
         raise InputError(f"{', '.join(unused)}: not accepted with a measured motion, which has no drive")
     wishes = MotionWishes("exact" if motion.exact else None, motion.start, motion.end)
     return read_run(Path(str(motion.measured)), model.shaft.height, sensors, wishes)
+
+
+def _moving_building(model: RopeModel, measured: Run | None, timing: Timing) -> BuildingRecord | None:
+    """The motion of the model's building, if it moves; raises `InputError` for a record that does not fit the simulation."""
+    building = building_record(model)
+    if building and measured and measured.lateral:
+        raise InputError("building: not accepted with a run in which lateral displacements of the rope's ends are measured")
+    if building:
+        building.require_duration(timing.begin + timing.duration)
+    return building
 
 
 def _advance(progress: Progress, recorder: FrameRecorder | None, before: int, count: int, total: int) -> None:

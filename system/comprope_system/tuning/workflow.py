@@ -14,7 +14,7 @@ from comprope.rope.effects import RopeModel
 from ..parallel.executors import workers
 from ..parallel.progress import Progress, no_progress
 from ..parallel.sweep import sweep, values
-from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model
+from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model, require_still_building
 from ..presets.overrides import Changes
 from ..reduced_model.calibration import calibrated_string
 from ..reduced_model.state_space import as_json, rope_state_space
@@ -69,7 +69,7 @@ def tune(
     each core. Raises `InputError` for bad input, `SimulationError` where a trip cannot be simulated.
     """
     options = options or TuningOptions()
-    changed = read_model(model, changes)
+    changed = require_still_building(read_model(model, changes), "tuning")
     present = present_drive(drive, model, changed)
     trips, factors = read_trips(options.trips, changed.shaft.height), _factors(options.travel_times)
     rope = calibrated_string(changed)

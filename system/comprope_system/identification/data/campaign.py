@@ -23,6 +23,7 @@ from ...measurements.motion.anchoring import Landings
 from ...measurements.run_readings import run_problems
 from ...measurements.run_table import RunTable, read_run_table
 from ...measurements.units import UNITS
+from ...presets.inputs import require_still_building
 from .car_direction import mirrored_car
 from .channel_noise import ChannelNoise, channel_noise
 from .runs import Run
@@ -58,7 +59,7 @@ def load_campaign(folder: str | Path) -> Campaign:
     path = campaign_path(folder)
     described = read_campaign_file(path)
     found: list[str] = []
-    model = _collect(found, lambda: load(path.parent / described.model))
+    model = _collect(found, lambda: require_still_building(load(path.parent / described.model), "a campaign"))
     found += channel_problems(path, described, model)
     runs = [_collect(found, lambda one=one: read_run(path, one, described, model)) for one in described.runs]
     if not any(one.role == "fit" for one in described.runs):

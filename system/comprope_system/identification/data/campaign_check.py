@@ -8,6 +8,7 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
 
 from ...measurements.campaign_file import CampaignFile, RunSpec, read_campaign_file
+from ...presets.inputs import require_still_building
 from .campaign import campaign_path, channel_problems, read_run
 from .plausibility import common_start, remarks_on, remarks_on_record, successions
 from .runs import Run
@@ -39,7 +40,7 @@ def check_campaign(folder: str | Path) -> CampaignCheck:
     described = read_campaign_file(path)
     problems: list[str] = []
     try:
-        model = load(path.parent / described.model)
+        model = require_still_building(load(path.parent / described.model), "a campaign")
     except InputError as error:
         return CampaignCheck(described.name, path.parent, tuple(str(error).splitlines()), ())
     problems += channel_problems(path, described, model)
