@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 import comprope_system
 from comprope.errors import InputError
 from comprope.rope.model_file import dump, load, with_changes
-from comprope_system.building.record import building_record
+from comprope_system.building_motion.record import building_record
 from comprope_system.presets import model_path
 from comprope_system.simulation.result import SimulationResult
 

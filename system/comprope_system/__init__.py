@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .building_motion.workflow import RecordOptions, building
     from .campaign_setup.workflow import new
     from .fmu_export.workflow import fmu
     from .identification.workflow import add, check, compare, diagnose, improve
@@ -24,10 +25,11 @@ if TYPE_CHECKING:
     from .tuning.workflow import TuningOptions, tune
 
 __all__ = [
-    "BuildingSway", "CarMotion", "DesignOptions", "Stop", "TuningOptions",
-    "add", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "new", "simulate", "tune",
+    "BuildingSway", "CarMotion", "DesignOptions", "RecordOptions", "Stop", "TuningOptions",
+    "add", "building", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "new", "simulate", "tune",
 ]  # fmt: skip
 _MODULES = {
+    "building_motion": ("RecordOptions", "building"),
     "campaign_setup": ("new",),
     "fmu_export": ("fmu",),
     "identification": ("add", "check", "compare", "diagnose", "improve"),

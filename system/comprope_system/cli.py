@@ -62,7 +62,7 @@ def _welcome(
 PANELS = {  # of the help text, with commands in the order in which they are typically used
     "Simulate": ("simulate", "modes"),
     "Compare with measurements": ("app", "new", "check", "compare", "diagnose", "add", "improve"),
-    "Other tools": ("fmu",),
+    "Other tools": ("building", "fmu"),
     "Design and tuning": ("tune", "design"),
     "Verification": ("verify", "study"),
 }

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from ..building.motion import BuildingMotion
+from ..building_motion.motion import BuildingMotion
 
 POSITIONS = ("car_position", "counterweight_position")
 OUTPUTS = ("car_lateral_displacement", "counterweight_lateral_displacement", "base_acceleration")

@@ -11,7 +11,7 @@ from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.effects import RopeModel
 from comprope.rope.simulator.cosimulation import interface as rope_interface
 
-from ..building.motion import BuildingMotion
+from ..building_motion.motion import BuildingMotion
 from ..cosim import Connection, Participant
 from ..cosim.building_ends import OUTPUTS as BUILDING
 from ..cosim.building_ends import POSITIONS, BuildingEnds

@@ -13,7 +13,7 @@ from comprope.atomic_files import atomic_write
 from comprope.errors import InputError
 from comprope.rope.parameters import Base
 
-from ..building.motion import BuildingMotion
+from ..building_motion.motion import BuildingMotion
 from ..cosim import Sample, co_simulate
 from ..cosim.master import Coupling
 from .elevator import Elevator

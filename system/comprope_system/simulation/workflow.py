@@ -16,7 +16,7 @@ from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import RopeSimulator
 from comprope.rope.simulator.rope import CompensationRope
 
-from ..building.record import BuildingRecord, building_record
+from ..building_motion.record import BuildingRecord, building_record
 from ..cosim.fmu_cache import NamedFmus
 from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.master import Coupling
