@@ -49,6 +49,13 @@ DIRECTIONS = {
     "bent": {"effects.intrinsic_curvature.curvature": 1.0},
     "guides": {"effects.guide_friction.coulomb_force": 1.0},
     "slip": {"effects.bending_hysteresis.friction_moment": 1.0},
+    "unbalance": {"effects.sheave_unbalance.unbalance": 1.0},
+    "seal": {"effects.jammed_seal.stiffness": 1.0},
+    "jam": {"effects.jammed_guide.stiffness": 1.0},
+    "sticking": {"effects.sticky_guide.breakaway_force": 1.0},
+    "brush": {"effects.rope_brush.stiffness": 1.0, "effects.rope_brush.damping": 0.2},
+    "rubbing": {"effects.rope_guide.stiffness": 1.0},
+    "encoder": {"effects.encoder_scale.excess": 1.0},
 }
 # Effects that are declared but do nothing yet; effects that act already, one of them with a history.
 ABSENT = {

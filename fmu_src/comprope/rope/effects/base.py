@@ -41,6 +41,7 @@ INSTRUMENT = {
     "sensor_gain": "measured / true value of a channel, by the channel's column",
     "sensor_offset": "measured value of a channel for a true value of zero, in SI units, by the channel's column",
     "sensor_delay": "delay of a channel [s], by the channel's column",
+    "sensor_height": "height at which a sensor truly looks, as by a tilt, less that of the model [m], by the channel's column",
     "sensor_drift": "rate of a channel's offset from the start of a record, in SI units per second, by the channel's column",
 }
 

@@ -79,9 +79,10 @@ def screen_hypotheses(
     """
     left_out = {key.split(".")[1] for key in origin.effects} | problem.ruled_out
     known = effect_hypotheses(problem.campaign.model, promising_frequencies(problem, baseline) if tried is None else tried)
-    responses = effect_responses(problem, origin, [one for one in known if one.effect not in left_out])
-    faults = [one for one in instrument_hypotheses(problem.campaign.channels) if one.effect not in left_out]
-    responses |= {one: instrument_jacobian(problem, one, origin, baseline.predictions) for one in faults}
+    tried_here = [one for one in [*known, *instrument_hypotheses(problem.campaign.channels)] if one.effect not in left_out]
+    responses = effect_responses(problem, origin, [one for one in tried_here if not one.follows_from_predictions])
+    at = baseline.predictions
+    responses |= {one: instrument_jacobian(problem, one, origin, at) for one in tried_here if one.follows_from_predictions}
     return best_per_effect(screen_about_fits(problem, responses, baseline, nominal))
 
 

@@ -13,10 +13,10 @@ from comprope.rope.runtime.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import values_of
 
 from ..data.runs import Channel, Run
-from ..hypotheses.effect_hypotheses import Hypothesis
+from ..hypotheses.effect_hypotheses import SENSOR_HEIGHT, Hypothesis
 from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS, Direction
 from ..prediction.parameter_point import ParameterPoint, Predictions, run_at_point
-from ..prediction.replay import relative_to_rest
+from ..prediction.replay import relative_to_rest, sensor_heights
 from ..prediction.replay_sensitivities import replay_with_sensitivities
 from ..settings import LINEARISATION, REPLAY
 from .weighted_least_squares import LeastSquaresProblem
@@ -104,20 +104,30 @@ def run_tangents(
     times as long.
     """
     moved_run = run_at_point(model, run, here, coarse)
-    values = values_of(with_changes(model, here.changes(model, run), run.file))
+    values = _values(with_changes(model, here.changes(model, run), run.file))
     directions = {}
     for k, (point, step) in enumerate(neighbours):
-        moved = values_of(with_changes(model, point.changes(model, run), run.file))
-        change = {key: _difference(key, value, values.get(key, DECLARED[key].neutral)) / step for key, value in moved.items()}
+        moved = _values(with_changes(model, point.changes(model, run), run.file))
+        change = {key: _difference(key, value, values.get(key, _neutral(key))) / step for key, value in moved.items()}
         if amounts := {key: amount for key, amount in change.items() if amount}:
             directions[str(k)] = amounts
     shown, by = replay_with_sensitivities(model, moved_run, channels, directions, coarse * REPLAY.time_step)
     return shown.values, {int(k): one for k, one in by.items()}
 
 
+def _values(model: RopeModel) -> dict[str, float]:
+    """Every number of a model by its key, with the errors of sensors' heights, to which the rope's motion gives derivatives."""
+    heights = {f"effects.{SENSOR_HEIGHT}.{column}": error for column, error in sensor_heights(model).items()}
+    return values_of(model) | heights
+
+
+def _neutral(key: str) -> float:
+    return DECLARED[key].neutral if key in DECLARED else 0.0
+
+
 def _difference(key: str, a: float, b: float) -> float:
     """Difference a - b of a parameter's values; of angles the one within half a turn."""
-    return remainder(a - b, 2.0 * pi) if DECLARED[key].unit == "rad" else a - b
+    return remainder(a - b, 2.0 * pi) if key in DECLARED and DECLARED[key].unit == "rad" else a - b
 
 
 def instrument_jacobian(

@@ -90,7 +90,7 @@ def _estimate(key: str, value: float, standard_error: float) -> Estimate:
 def unit_of(effect: str, name: str) -> str:
     """The unit of an effect's parameter, with a space before it; nothing for a pure number."""
     declared = _declared(f"effects.{effect}.{name}")
-    unit = declared.unit if declared else {"sensor_delay": "s", "sensor_drift": "1/s"}.get(effect, "1")
+    unit = declared.unit if declared else {"sensor_delay": "s", "sensor_drift": "1/s", "sensor_height": "m"}.get(effect, "1")
     return "" if unit == "1" else f" {unit.replace('.', '·')}"
 
 

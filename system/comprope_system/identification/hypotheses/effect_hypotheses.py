@@ -17,6 +17,8 @@ from ..data.runs import Channel
 from ..settings import HYPOTHESES
 from .plant_parameters import Direction
 
+SENSOR_HEIGHT = "sensor_height"
+
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
@@ -51,8 +53,13 @@ class Hypothesis:
 
     @property
     def instrument_directions(self) -> list[bool]:
-        """Which directions belong to faults of instruments."""
-        return [part.is_instrument for part in self.parts or (self,) for _ in part.directions]
+        """Which directions belong to faults of instruments whose derivatives follow from the predictions."""
+        return [part.follows_from_predictions for part in self.parts or (self,) for _ in part.directions]
+
+    @property
+    def follows_from_predictions(self) -> bool:
+        """Whether predictions without it tell how channels answer: so do all faults but that of a sensor's height."""
+        return self.is_instrument and self.effect != SENSOR_HEIGHT
 
     def shifts(self, coefficients: list[float]) -> dict[str, dict[str, float]]:
         """What is added to parameters in single runs: by the run's file and the model key."""
@@ -120,7 +127,7 @@ def combine(*effects: Hypothesis) -> Hypothesis:
 
 
 def instrument_hypotheses(channels: Mapping[str, Channel]) -> list[Hypothesis]:
-    """One hypothesis for each fault of each channel; an offset has an effect on absolute channels only."""
+    """One hypothesis for each fault of each channel; an offset shows in absolute channels only, a height in lateral ones."""
     found = []
     for column, channel in channels.items():
         noise = channel.scale * (channel.noise or HYPOTHESES.assumed_noise)
@@ -128,15 +135,18 @@ def instrument_hypotheses(channels: Mapping[str, Channel]) -> list[Hypothesis]:
         found.append(_fault("sensor_gain", column, HYPOTHESES.gain_unit, HYPOTHESES.gain_prior, 1.0))
         found.append(_fault("sensor_delay", column, HYPOTHESES.delay_unit, HYPOTHESES.delay_prior, 0.0))
         found.append(_fault("sensor_drift", column, noise / HYPOTHESES.drift_time, HYPOTHESES.drift_prior, 0.0))
+        if channel.quantity == "lateral_displacement":
+            size, bound = HYPOTHESES.sensor_height_unit, HYPOTHESES.sensor_height_bound
+            found.append(_fault(SENSOR_HEIGHT, column, size, HYPOTHESES.sensor_height_prior, 0.0, bound))
         if channel.reference == "absolute":
             found.append(_fault("sensor_offset", column, noise, HYPOTHESES.offset_prior, 0.0))
     return found
 
 
-def _fault(effect: str, column: str, size: float, prior: float, base: float) -> Hypothesis:
+def _fault(effect: str, column: str, size: float, prior: float, base: float, bound: float = float("inf")) -> Hypothesis:
     """Fault of the instrument of one channel: `size` per unit of the coefficient, `base` without the fault."""
     key = f"effects.{effect}.{column}"
-    return Hypothesis(effect, (Direction(key, {key: size}, prior),), base=base)
+    return Hypothesis(effect, (Direction(key, {key: size}, prior, -bound, bound),), base=base)
 
 
 def _is_amplitude(one: Quantity, effect: type[Effect]) -> bool:

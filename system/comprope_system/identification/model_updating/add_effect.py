@@ -145,9 +145,9 @@ def _best_start(baseline: BaselineFit, tried: list[Hypothesis]) -> tuple[Hypothe
     problem, (old, own) = baseline.problem, effects_in_model(baseline.campaign)
     plant = len(PLANT_PARAMETERS)
     origin = point_at(old, [*np.zeros(plant), *own], ParameterPoint())
-    columns = effect_responses(problem, origin, [one for one in tried if not one.is_instrument])
+    columns = effect_responses(problem, origin, [one for one in tried if not one.follows_from_predictions])
     at = baseline.initial_fit.predictions
-    columns |= {one: instrument_jacobian(problem, one, origin, at) for one in tried if one.is_instrument}
+    columns |= {one: instrument_jacobian(problem, one, origin, at) for one in tried if one.follows_from_predictions}
     screened = screen_about_fits(problem, columns, baseline.fitted, baseline.initial_fit)
     best = min(screened, key=lambda one: one.penalised_chi_square)
     there, new = best.start[plant : plant + len(own)], best.start[plant + len(own) :]

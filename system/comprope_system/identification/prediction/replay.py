@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from ..data.runs import Channel, Run
 from ..settings import REPLAY
 
 Floats = NDArray[np.float64]
+Side = Literal["car", "counterweight"]
 
 
 @dataclass(frozen=True)
@@ -97,22 +98,33 @@ def _simulated_channels(rope: CompensationRope, run: Run, grid: Floats, channels
     motion = end_motion(rope.model, run, grid)
     rope.solve_equilibrium(*start_of(rope.model, motion), time=float(grid[0]))
     found = {column: np.ones((len(grid), 2)) for column in channels}
-    sensors = {sensor.name: sensor for sensor in rope.model.sensors}
     with_forces = any(one.quantity.endswith(("force", "tension")) for one in channels.values())
     paths = interval_paths(motion)
-    lateral = {column: sensors[str(one.sensor)] for column, one in channels.items() if one.quantity == "lateral_displacement"}
+    lateral = watched_heights(rope.model, channels)
     others = {column: one.quantity for column, one in channels.items() if column not in lateral}
     interval = output_interval(rope.model.solver.step)
     for k in range(len(grid)):
         if k:
             rope.step(interval, paths[k - 1])
-        for column, sensor in lateral.items():
-            found[column][k] = rope.lateral_displacement(sensor.side, sensor.height)
+        for column, (side, height) in lateral.items():
+            found[column][k] = rope.lateral_displacement(side, height)
         if others:
             outputs: Mapping[str, Any] = rope.outputs() if with_forces else rope.sheave()
             for column, quantity in others.items():
                 found[column][k, 0] = outputs[quantity]
     return found
+
+
+def sensor_heights(model: Base) -> Mapping[str, float]:
+    """Errors of the heights of sensors [m] by the column of their channels."""
+    return getattr(getattr(model, "effects", None), "sensor_height", None) or {}
+
+
+def watched_heights(model: Base, channels: Mapping[str, Channel]) -> dict[str, tuple[Side, float]]:
+    """Side and height [m] at which the sensor of each lateral channel truly looks, by column."""
+    sensors, errors = {sensor.name: sensor for sensor in model.sensors}, sensor_heights(model)
+    watched = {column: sensors[str(one.sensor)] for column, one in channels.items() if one.quantity == "lateral_displacement"}
+    return {column: (sensor.side, sensor.height + errors.get(column, 0.0)) for column, sensor in watched.items()}
 
 
 def interval_paths(motion: Floats) -> Floats:

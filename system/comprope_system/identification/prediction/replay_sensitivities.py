@@ -1,6 +1,6 @@
 """Replay of a measured run with the derivatives of every channel along directions in the space of parameters."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -8,6 +8,7 @@ from scipy.interpolate import CubicSpline
 from comprope.errors import SimulationError
 from comprope.rope.effects import REGISTRY, RopeModel
 from comprope.rope.model_file import with_changes
+from comprope.rope.parameters import Sensor
 from comprope.rope.simulator.parameter_directions import Direction
 from comprope.rope.simulator.rope import values_of
 from comprope.rope.simulator.sensitive_rope import SensitiveRope
@@ -24,9 +25,12 @@ from .replay import (
     output_times,
     relative_to_rest,
     start_of,
+    watched_heights,
 )
 
 FORCES = ("force", "tension")
+HEIGHT = "effects.sensor_height."
+Moves = Mapping[str, Mapping[str, float]]
 
 
 def replay_with_sensitivities(
@@ -45,19 +49,23 @@ def replay_with_sensitivities(
     unit of a coefficient of these amounts, which add to the run's own changes. `at` sets, by direction, parameters without
     influence at the point itself, as the frequency of a sway of zero amplitude; `exact` chooses the more accurate derivatives of
     `SensitiveRope`, by default where effects need them. Derivatives are relative to rest where the channel is, and NaN where the
-    rope is out of view. Raises `SimulationError` where the run or a derivative fails.
+    rope is out of view. `effects.sensor_height.COLUMN` is a parameter too. Raises `SimulationError` where the run or a
+    derivative fails.
     """
     changed = with_changes(model, run.changes | {"solver.step": step}, run.file)
-    rope = SensitiveRope(changed, directions, at, exact=_has_history(values_of(changed)) if exact is None else exact)
+    of_rope, heights = _without_heights(directions)
+    watching = _watching(changed, channels, heights)
+    rope = SensitiveRope(watching, of_rope, at, exact=_has_history(values_of(changed)) if exact is None else exact)
     grid = output_times(run, step)
-    found, hidden = _simulated_channels(rope, run, grid, channels)
+    found, hidden = _simulated_channels(rope, run, grid, channels, heights)
     if not all(np.abs(one).max() < REPLAY.derivative_limit for one in found.values()):
         raise SimulationError(f"{run.file}: derivatives along the run diverged")
     sampled = {column: CubicSpline(grid, found[column])(run.time) for column in channels}
     for column, values in sampled.items():
         values[np.interp(run.time, grid, hidden[column]) > 0.0] = np.nan
     shown = {column: instrument(changed, column, run.time, values[:, 0]) for column, values in sampled.items()}
-    derivatives = {name: {column: values[:, k] for column, values in sampled.items()} for k, name in enumerate(rope.names, 1)}
+    names = (*rope.names, *(name for name in heights if name not in of_rope))
+    derivatives = {name: {column: values[:, k] for column, values in sampled.items()} for k, name in enumerate(names, 1)}
     count = rope.rope.count
     return Replay(relative_to_rest(shown, run, channels), count["newton"], count["halved"]), {
         name: relative_to_rest(
@@ -65,6 +73,31 @@ def replay_with_sensitivities(
         )
         for name, own in derivatives.items()
     }
+
+
+def _without_heights(directions: Mapping[str, Direction]) -> tuple[dict[str, Direction], Moves]:
+    """The directions of the rope alone, and by direction how it moves the sensors of channels [m]."""
+    of_rope = {name: {key: one for key, one in own.items() if not key.startswith(HEIGHT)} for name, own in directions.items()}
+    heights = {
+        name: {key.removeprefix(HEIGHT): one for key, one in own.items() if key.startswith(HEIGHT)}
+        for name, own in directions.items()
+    }
+    return {name: own for name, own in of_rope.items() if own or not heights[name]}, {
+        name: own for name, own in heights.items() if own
+    }
+
+
+def _watching(model: RopeModel, channels: Mapping[str, Channel], heights: Moves) -> RopeModel:
+    """The model with a sensor for each lateral channel, followed by one below and one above each that directions move."""
+    watched = watched_heights(model, channels)
+    moved = {column for own in heights.values() for column in own}
+    places = [*watched.items(), *((column, watched[column]) for column in watched if column in moved for _ in range(2))]
+    shifts = [0.0] * len(watched) + [-REPLAY.height_step, REPLAY.height_step] * len(moved)
+    sensors = tuple(
+        Sensor(name=f"s{k}", side=side, height=height + shift)
+        for k, ((_, (side, height)), shift) in enumerate(zip(places, shifts, strict=True))
+    )
+    return model.model_copy(update={"sensors": sensors})
 
 
 def _has_history(values: Mapping[str, float]) -> bool:
@@ -81,16 +114,19 @@ def _instrument_derivative(model: RopeModel, column: str, run: Run, derivative: 
 
 
 def _simulated_channels(
-    rope: SensitiveRope, run: Run, grid: Floats, channels: Mapping[str, Channel]
+    rope: SensitiveRope, run: Run, grid: Floats, channels: Mapping[str, Channel], heights: Moves
 ) -> tuple[dict[str, Floats], dict[str, Floats]]:
-    """Each channel and its derivatives (times, 1 + directions) on the grid, and where it is out of view (times,)."""
+    """Each channel and its derivatives (times, 1 + directions) on the grid, and where it is out of view (times,).
+
+    Derivatives by directions of `heights` alone come last.
+    """
     motion = end_motion(rope.rope.model, run, grid)
     paths = interval_paths(motion)
     rope.solve_equilibrium(*start_of(rope.rope.model, motion), time=float(grid[0]))
     found = {column: np.zeros((len(grid), 1 + len(rope.names))) for column in channels}
     hidden = {column: np.zeros(len(grid)) for column in channels}
     readings = np.zeros((len(grid), len(rope.rope.model.sensors), 2 + len(rope.names)))
-    sensors = {column: _sensor_number(rope, one) for column, one in channels.items() if one.quantity == "lateral_displacement"}
+    sensors = [column for column, one in channels.items() if one.quantity == "lateral_displacement"]
     others = {column: one.quantity for column, one in channels.items() if column not in sensors}
     interval = output_interval(rope.rope.model.solver.step)
     for k in range(len(grid)):
@@ -100,14 +136,24 @@ def _simulated_channels(
             readings[k] = rope.read_sensors()
         if others:
             _record_sheave_channels(rope, others, {column: values[k] for column, values in found.items()})
-    for column, j in sensors.items():
+    for j, column in enumerate(sensors):
         found[column][:, 0], hidden[column], found[column][:, 1:] = readings[:, j, 0], 1.0 - readings[:, j, 1], readings[:, j, 2:]
-    return found, hidden
+    return _with_heights(rope.names, found, readings[:, :, 0], sensors, heights), hidden
 
 
-def _sensor_number(rope: SensitiveRope, channel: Channel) -> int:
-    """Number of a channel's sensor in the model."""
-    return [one.name for one in rope.rope.model.sensors].index(str(channel.sensor))
+def _with_heights(
+    names: Sequence[str], found: dict[str, Floats], seen: Floats, sensors: Sequence[str], heights: Moves
+) -> dict[str, Floats]:
+    """Channels and derivatives with those by the heights of sensors: the rope's slope, from what is `seen` below and above."""
+    alone = [name for name in heights if name not in names]
+    found = {column: np.pad(values, ((0, 0), (0, len(alone)))) for column, values in found.items()}
+    moved = [column for column in sensors if any(column in own for own in heights.values())]
+    for j, column in enumerate(moved):
+        below, above = len(sensors) + 2 * j, len(sensors) + 2 * j + 1
+        slope = (seen[:, above] - seen[:, below]) / (2.0 * REPLAY.height_step)
+        for name, own in heights.items():
+            found[column][:, 1 + [*names, *alone].index(name)] += own.get(column, 0.0) * slope
+    return found
 
 
 def _record_sheave_channels(rope: SensitiveRope, others: Mapping[str, str], rows: Mapping[str, Floats]) -> None:

@@ -81,6 +81,10 @@ MEANINGS = {
         "A channel shows its values too late or too early against the position of the car. The rope itself moves as "
         "the model says."
     ),
+    "sensor_height": (
+        "A laser looks at the rope higher or lower than stated, or is tilted. The channel shows what the model has there, and "
+        "passages of the end under car or counterweight come early or late."
+    ),
     "sensor_drift": "The zero of a channel drifts during a record. The rope itself moves as the model says.",
     "adequate": (
         "With refitted plant parameters the residual is explained by measurement noise. An effect that is smaller "
@@ -136,6 +140,7 @@ _DETAILS = {
     "sensor_gain": f'{_SENSOR}{_WAVE}<path d="M80 82Q92 18 104 82T128 82T142 82"/>',
     "sensor_offset": f'{_SENSOR}{_WAVE}<path d="M80 64Q92 34 104 64T128 64T142 64"/>',
     "sensor_delay": f'{_SENSOR}{_WAVE}<path d="M89 82Q101 52 113 82T137 82"/>',
+    "sensor_height": f'{_SENSOR}<path d="M18 110L58 84" /><path class="arrow" d="M30 110V92"/>',
     "sensor_drift": f'{_SENSOR}<path d="M82 96H140" stroke="var(--soft)"/><path d="M82 96L140 62"/>',
     "adequate": '<path d="M88 84L104 100L136 66" stroke="var(--good)" stroke-width="6"/>',
     "unknown": '<path d="M98 68A13 13 0 1 1 116 80Q110 84 110 94M110 104V105" stroke-width="5"/>',
@@ -174,4 +179,4 @@ def parameter_unit(channels: Mapping[str, Channel], effect: str, name: str) -> s
         return next(one.unit for one in quantities(REGISTRY[effect]) if one.name == name)
     quantity = channels[name].quantity
     shown = {"sheave_angular_velocity": "rad/s"}.get(quantity, "m" if "displacement" in quantity else "N")
-    return {"sensor_gain": "1", "sensor_delay": "s", "sensor_drift": f"{shown}/s"}.get(effect, shown)
+    return {"sensor_gain": "1", "sensor_delay": "s", "sensor_drift": f"{shown}/s", "sensor_height": "m"}.get(effect, shown)

@@ -21,6 +21,9 @@ class Replay:
     coarse_element: float = setting(
         0.3, "1", "longest element in screening, over the sheave's radius; a longer one does not follow the groove", JUDGEMENT
     )
+    height_step: float = setting(
+        0.1, "m", "distance over which the slope of the rope at a sensor is differenced", f"{JUDGEMENT}: two elements"
+    )
     derivative_limit: float = setting(
         1e100, "SI", "size beyond which a derivative has diverged", f"{DERIVED}: its square is still a finite number"
     )
@@ -58,6 +61,11 @@ class Hypotheses:
     )
     delay_unit: float = setting(0.01, "s", "unit of a sensor's delay", JUDGEMENT)
     delay_prior: float = setting(10.0, "units", "prior standard deviation of a delay", JUDGEMENT)
+    sensor_height_unit: float = setting(0.05, "m", "unit of an error of a sensor's height", JUDGEMENT)
+    sensor_height_prior: float = setting(10.0, "units", "prior standard deviation of that error", JUDGEMENT)
+    sensor_height_bound: float = setting(
+        10.0, "units", "largest error of a sensor's height", f"{JUDGEMENT}: half a metre; further off it is another sensor"
+    )
     drift_time: float = setting(60.0, "s", "unit of a drift: one standard deviation of the noise in this time", JUDGEMENT)
     drift_prior: float = setting(100.0, "units", "prior standard deviation of a drift", JUDGEMENT)
     offset_prior: float = setting(30.0, "noise", "prior standard deviation of an offset", JUDGEMENT)
