@@ -72,7 +72,7 @@ MOTIONS, FORCES = ("cw_low", "car_low", "axle", "turning"), ("weight", "pull")
 # comes to touch it that did not; much where the answer is small beside the 1e-8 m to which a time step converges.
 SHARE = 1e-5
 SHARES = {"radius": 1e-7, "pit": 1e-7, "inertia": 1e-6, "drag": 0.1, "slip": 1e-4, "bent": 1e-4,
-          "guides": 1e-3}  # fmt: skip
+          "guides": 1e-3, "brush": 0.01, "rubbing": 0.01, "seal": 0.01}  # fmt: skip
 
 # What a tenth of a parameter may change without anybody seeing it: a hundredth of a fine instrument's noise.
 UNSEEN = {"cw_low": 1e-6, "car_low": 1e-6, "axle": 1e-7, "turning": 1e-5, "weight": 1e-2, "pull": 1e-2}

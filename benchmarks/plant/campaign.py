@@ -76,10 +76,20 @@ def simulate_run(plan: Plan, name: str, causes: Mapping[str, Mapping[str, float]
     for cause, values in causes.items():
         act = CAUSES[cause].excitation
         excitation = act(p, excitation, values, rng) if act else excitation
-    true = simulate(p, excitation, site.sensors, site.every)
+    true = simulate(p, excitation, sensors(plan, causes), site.every)
     recorded = true["time"] >= 0.0
     car = -excitation.encoder * excitation.ends[:: site.every, 0, 0]
     return {name: values[recorded] for name, values in true.items()}, car[recorded]
+
+
+def sensors(plan: Plan, causes: Mapping[str, Mapping[str, float]]) -> dict[str, tuple[float, float]]:
+    """Side and height of each sensor; one of them may be mounted higher than the model file says."""
+    found = dict(plan.site.sensors)
+    if "sensor_height" in causes and plan.column:
+        name = plan.site.channels[plan.column].source
+        side, height = found[name]
+        found[name] = (side, height + causes["sensor_height"]["error"])
+    return found
 
 
 def measured(plan: Plan, true: Mapping[str, Floats], car: Floats, causes: Mapping[str, Mapping[str, float]]) -> faults.Rows:

@@ -120,6 +120,7 @@ CAUSES: dict[str, Cause] = {
         "instrument", {"offset": Draw(5e-3, 0.2, signed=True)}, channel=instruments.sensor_offset, quantities=TURNING
     ),
     "sensor_delay": Cause("instrument", {"delay": Draw(0.01, 0.1)}, channel=instruments.sensor_delay, quantities=LATERAL),
+    "sensor_height": Cause("instrument", {"error": Draw(0.05, 0.5, signed=True)}, quantities=LATERAL),
     # outside the library
     "rail_waves": Cause("outside", {"size": Draw(5e-4, 6e-3)}, {"shift": Draw(0.0, 5.0, even=True)}, excitation=ends.rail_waves),
     "gusts": Cause("outside", {"size": Draw(5e-5, 1e-2)}, excitation=ends.gusts, near=("building_sway",)),
