@@ -22,11 +22,12 @@ if TYPE_CHECKING:
     from .modal.workflow import modes
     from .sheave_design.workflow import BuildingSway, DesignOptions, design
     from .simulation.workflow import CarMotion, Stop, simulate
+    from .sway_operation.workflow import SwayOptions, sway
     from .tuning.workflow import TuningOptions, tune
 
 __all__ = [
-    "BuildingSway", "CarMotion", "DesignOptions", "RecordOptions", "Stop", "TuningOptions",
-    "add", "building", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "new", "simulate", "tune",
+    "BuildingSway", "CarMotion", "DesignOptions", "RecordOptions", "Stop", "SwayOptions", "TuningOptions",
+    "add", "building", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "new", "simulate", "sway", "tune",
 ]  # fmt: skip
 _MODULES = {
     "building_motion": ("RecordOptions", "building"),
@@ -36,6 +37,7 @@ _MODULES = {
     "modal": ("modes",),
     "sheave_design": ("BuildingSway", "DesignOptions", "design"),
     "simulation": ("CarMotion", "Stop", "simulate"),
+    "sway_operation": ("SwayOptions", "sway"),
     "tuning": ("TuningOptions", "tune"),
 }
 

@@ -63,7 +63,7 @@ PANELS = {  # of the help text, with commands in the order in which they are typ
     "Simulate": ("simulate", "modes"),
     "Compare with measurements": ("app", "new", "check", "compare", "diagnose", "add", "improve"),
     "Other tools": ("building", "fmu"),
-    "Design and tuning": ("tune", "design"),
+    "Design and tuning": ("tune", "design", "sway"),
     "Verification": ("verify", "study"),
 }
 

@@ -1,0 +1,70 @@
+"""The public function `comprope_system.sway`: swing of the rope in a swaying building by car position and period."""
+
+import numpy as np
+
+from comprope.rope.effects import RopeModel
+
+from ..modal.hanging_string import side_string
+from ..parallel.progress import Progress, no_progress
+from ..presets.inputs import ModelInput, model_name, read_model, require_still_building
+from ..presets.overrides import Changes
+from .full_simulation import simulated_amplitudes
+from .options import SwayOptions
+from .parked_response import Sway, parked_rope
+from .result import SwayResult, Verified
+
+__all__ = ["SwayOptions", "sway"]
+BELOW, ABOVE = 0.25, 1.4  # of the rope's shortest and longest first period: the periods of the map
+
+
+def sway(
+    model: ModelInput, options: SwayOptions | None = None, *, changes: Changes | None = None, progress: Progress = no_progress
+) -> SwayResult:
+    """Compute how far both sides of the rope swing while the building sways and the car is parked.
+
+    `model` is a model file, a preset's name or a `RopeModel`; `changes` are values by key. Raises `InputError` for bad input,
+    `SimulationError` where no static equilibrium is found.
+    """
+    options = options or SwayOptions()
+    given = require_still_building(read_model(model, changes), "the map of sway")
+    cars, periods = _grid(given, options)
+    found = np.zeros((2, len(cars), len(periods)))
+    for i, car in enumerate(cars):
+        parked = parked_rope(given, float(car))
+        found[:, i] = np.array([parked.amplitudes(options.sway, float(period)) for period in periods]).T
+        progress("positions of the car", i + 1, len(cars))
+    verified = tuple(_verified(given, options, cars, periods, found, progress))
+    return SwayResult(model_name(model), given, options, cars, periods, found, verified)
+
+
+def _grid(model: RopeModel, options: SwayOptions) -> tuple[np.ndarray, np.ndarray]:
+    """Car positions [m], floors among them, and periods [s] of the map."""
+    height = model.shaft.height
+    floors = np.linspace(0.0, height, options.floors)
+    between = np.linspace(0.0, height, options.positions)
+    cars = np.unique(np.concatenate([floors, between]).round(6))
+    firsts = [side_string(model, at, "counterweight").period() for at in (0.0, height)]
+    periods = np.geomspace(BELOW * max(firsts), ABOVE * max(firsts), options.periods)
+    if options.period is not None:
+        own = options.period * np.linspace(1.0 - options.spread, 1.0 + options.spread, 5)
+        periods = np.unique(np.concatenate([periods, own]).round(6))
+    return cars, periods
+
+
+def _verified(
+    model: RopeModel, options: SwayOptions, cars: np.ndarray, periods: np.ndarray, found: np.ndarray, progress: Progress
+) -> list[Verified]:
+    """The cells with the largest swing, in different quarters of the car's travel, by the full model and without damping."""
+    still, taken = Sway(options.amplitude, options.duration, 0.0), list[Verified]()
+    worst = found.max(axis=0)
+    for place in np.argsort(worst, axis=None)[::-1]:
+        if len(taken) == options.verify:
+            break
+        i, j = (int(k) for k in np.unravel_index(place, worst.shape))
+        car, period = float(cars[i]), float(periods[j])
+        if any(abs(one.car - car) < 0.25 * model.shaft.height for one in taken):
+            continue
+        linear = parked_rope(model, car).amplitudes(still, period)
+        taken.append(Verified(car, period, tuple(linear), tuple(simulated_amplitudes(model, car, still, period))))
+        progress("full model", len(taken), options.verify)
+    return taken

@@ -1,0 +1,75 @@
+"""Swing of the rope of a parked car in a swaying building, and the floors to avoid."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from typer.testing import CliRunner
+
+import comprope_system
+from comprope.errors import InputError
+from comprope.rope.model_file import load, with_changes
+from comprope_system import cli
+from comprope_system.modal.hanging_string import side_string
+from comprope_system.presets import model_path
+from comprope_system.sway_operation.full_simulation import simulated_amplitudes
+from comprope_system.sway_operation.parked_response import Sway, parked_rope
+
+TOWER = with_changes(load(model_path("tower50")), {"rope.element_length": 0.1})
+
+
+@pytest.mark.parametrize(("car", "share"), [(5.0, 0.6), (30.0, 1.0), (45.0, 1.3)])
+def test_small_swing_is_that_of_the_full_model(car: float, share: float) -> None:
+    """Below, at and above the first resonance of the counterweight's side, from rest and without damping."""
+    small, period = Sway(2e-4, 20.0, 0.0), share * side_string(TOWER, car, "counterweight").period()
+    linear, full = parked_rope(TOWER, car).amplitudes(small, period), simulated_amplitudes(TOWER, car, small, period)
+    assert linear == pytest.approx(full, rel=0.06, abs=1e-5)
+
+
+def test_a_slow_building_takes_the_rope_along() -> None:
+    """Far above all natural periods the rope keeps the static shape, whose distance from the leaning building is a hand value."""
+    car, sway = 30.0, Sway(0.01, 400.0, 0.02)
+    c = 0.5 * TOWER.sheave.mass / TOWER.rope.mass_per_length
+    lengths = [height + TOWER.shaft.pit for height in (car, TOWER.shaft.height - car)]
+    z = np.linspace(0.0, 1.0, 400)
+    by_hand = [sway.amplitude * L / 51.5 * np.abs(np.log1p(z * L / c) / np.log1p(L / c) - z).max() for L in lengths]
+    assert parked_rope(TOWER, car).amplitudes(sway, 300.0) == pytest.approx(by_hand, rel=0.1)
+
+
+def test_damping_bounds_the_swing_at_resonance() -> None:
+    """From rest it grows with the duration; with damping it ends at the steady amplitude."""
+    car = 30.0
+    parked, period = parked_rope(TOWER, car), side_string(TOWER, car, "counterweight").period()
+    short, long = (parked.amplitudes(Sway(1e-3, duration, 0.0), period)[1] for duration in (30.0, 60.0))
+    damped = [parked.amplitudes(Sway(1e-3, duration, 0.02), period)[1] for duration in (200.0, 400.0)]
+    assert long > 1.5 * short
+    assert damped[1] == pytest.approx(damped[0], rel=1e-3)
+
+
+def test_the_command_writes_map_page_and_floors_to_avoid(tmp_path: Path) -> None:
+    """A floor is avoided where its swing is above the limit."""
+    files = {"--out": "s.csv", "--plot": "s.png", "--report": "s.html", "--json": "s.json"}
+    arguments = [part for option, name in files.items() for part in (option, str(tmp_path / name))]
+    asked = ["--amplitude", "10", "--period", "2.5", "--limit", "60", "--floors", "3", "--duration", "20", "--verify", "1"]
+    told = CliRunner().invoke(cli.app, ["sway", "tower50", "--set", "rope.element_length=0.2", *asked, *arguments])
+    assert told.exit_code == 0, told.output
+    found = json.loads((tmp_path / "s.json").read_text(encoding="utf-8"))
+    assert [floor["height"] for floor in found["floors"]] == [0.0, 25.0, 50.0]
+    assert all(floor["avoid"] == (floor["swing"] > 0.06) for floor in found["floors"])
+    assert 0 < sum(floor["avoid"] for floor in found["floors"]) < 3 or "none" in told.output
+    table = pd.read_csv(tmp_path / "s.csv")
+    assert len(table) == len(found["cars"]) * len(found["periods"])
+    assert table["counterweight_swing"].max() == pytest.approx(np.max(found["counterweight_swing"]), rel=1e-5)
+    assert (tmp_path / "s.png").stat().st_size > 10_000
+    assert "parking floors to avoid" in (tmp_path / "s.html").read_text(encoding="utf-8")
+
+
+def test_bad_values_are_told_all_at_once() -> None:
+    """One line each."""
+    with pytest.raises(InputError) as refused:
+        comprope_system.SwayOptions(amplitude=9.0, floors=1, duration=0.0)
+    assert str(refused.value).splitlines() == [
+        "amplitude = 9: 0.0001 to 5 is accepted", "floors = 1: 2 to 200 is accepted", "duration = 0: 1 to 7200 is accepted",
+    ]  # fmt: skip
