@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -16,10 +16,8 @@ from ..modal.hanging_string import side_string
 from ..report.page import Block, Picture, Section, Table, save_page
 from ..report.plot_style import label, legend, panels
 from ..report.result import Result
+from .options import SwayOptions
 from .parked_response import SIDES, Floats
-
-if TYPE_CHECKING:
-    from .workflow import SwayOptions
 
 LEAD = (
     "Largest displacement of each side relative to the building while it sways and the car is parked: linearised rope from rest, "
@@ -43,7 +41,7 @@ class SwayResult(Result):
 
     model_name: str
     model: RopeModel
-    options: "SwayOptions"
+    options: SwayOptions
     cars: Floats
     periods: Floats
     swing: Floats
