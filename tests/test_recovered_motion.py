@@ -96,6 +96,29 @@ def test_a_counterweight_that_jumps_is_recovered_beside_the_car(ends):
     assert any("does not mirror" in one for one in found.remarks)
 
 
+def test_an_impact_between_two_samples_does_not_ring():
+    fine = np.arange(0.0, 8.0, 1e-4)
+    acceleration = np.select([fine < 4.0, fine < 4.5, fine < 4.51], [0.0, -9.81, 490.5], 0.0)
+    speed = 1e-4 * np.cumsum(acceleration)
+    time, position = fine[::100], np.round(20.0 + 1e-4 * np.cumsum(speed), 4)[::100]
+    found = recover_trip(time, position, "exact")
+    away = np.abs(fine - 4.505) > 0.01
+    assert np.abs(found.velocity(fine) - speed)[away].max() < 0.3
+    assert np.abs(found.velocity(fine)).max() < 1.05 * 4.905
+    before = (fine > 4.1) & (fine < 4.48)
+    assert np.abs(found.acceleration(fine[before]) + 9.81).max() < 3.0
+    assert any("an impact, or a failure of the sensor" in one for one in found.remarks)
+
+
+def test_a_trip_that_follows_is_not_missed_by_the_one_before():
+    time = np.arange(0.0, 44.0, 4e-3)
+    slow = jerk_limited(0.0, 6.0, 14.5, np.array([8.0, 0.1, 1.0, 2.0, 1.0, 2.0, 1.0]))
+    truth = trip(6.0).value(time) - slow.value(time)
+    found = recover_trip(time, noisy(truth))
+    assert np.sqrt(np.mean((found.position(time) - truth) ** 2)) < 0.3 * NOISE
+    assert not found.remarks
+
+
 def test_held_samples_are_no_steps():
     time = np.arange(0.0, 15.0, 0.04)
     truth = trip(18.0).value(time)

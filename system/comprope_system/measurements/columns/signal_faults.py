@@ -4,7 +4,6 @@ Each rule takes the numbers of a column (n,), NaN where there is none, and retur
 """
 
 from collections.abc import Callable
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +22,7 @@ SENTINELS = frozenset(
 )
 LARGEST = 1e10  # beyond which no channel measures in any unit
 FAR = 5.0  # ranges of the other samples by which a value must lie outside of them to be no measurement
+MOST_SENTINELS = 10  # different values that are looked at, the farthest first: a logger has one or two
 REPEATED = 3  # samples of one far value that are no measurement, whatever it is
 PLATEAU = 4  # samples of one value in a row that are a plateau, if it is entered or left by a jump
 JUMP = 3.0  # resolutions of the signal; a smooth peak of a coarse signal is entered by one
@@ -59,7 +59,8 @@ def sentinels(values: Floats) -> Finding | None:
     distinct, counts = np.unique(known, return_counts=True)
     named = np.isin(np.abs(distinct), list(SENTINELS)) | (np.abs(distinct) >= LARGEST)
     suspects = np.flatnonzero(named | ((counts >= REPEATED) & (np.abs(distinct - middle) > FAR * (high - low))))
-    odd = [float(distinct[k]) for k in suspects if _is_far(distinct[k], known[known != distinct[k]])]
+    suspects = suspects[np.argsort(-np.abs(distinct[suspects] - middle))][:MOST_SENTINELS]
+    odd = [float(distinct[k]) for k in sorted(suspects) if _is_far(distinct[k], known[known != distinct[k]])]
     if not odd:
         return None
     at = np.isin(values, odd)
@@ -146,7 +147,8 @@ def _steps(values: Floats) -> Floats | None:
 def _plateaus(values: Floats, least: int) -> list[tuple[int, int]]:
     """Start and end of each stretch of at least `least` equal values in a row."""
     edges = np.flatnonzero(np.r_[True, values[1:] != values[:-1], True])
-    return [(int(a), int(b)) for a, b in pairwise(edges) if b - a >= least and np.isfinite(values[a])]
+    long = np.flatnonzero((np.diff(edges) >= least) & np.isfinite(values[edges[:-1]]))
+    return [(int(edges[k]), int(edges[k + 1])) for k in long]
 
 
 def _neighbour(values: Floats, at: int, direction: int) -> float | None:

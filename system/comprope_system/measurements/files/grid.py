@@ -36,17 +36,23 @@ _INTERVAL = _stated(
 
 def table_of(rows: Sequence[Cells], decimal: str, stated: FileFormat) -> RawTable:
     """The table in rows of cells, and what was skipped around and within it; raises `InputError`, without the file's name."""
-    found = locate(rows, decimal, stated.header)
-    kept, remarks = _kept(rows, found, decimal)
+    return table_at(rows, locate(rows, decimal, stated.header), decimal)
+
+
+def table_at(rows: Sequence[Cells], found: TableLines, decimal: str, block: pd.DataFrame | None = None) -> RawTable:
+    """The table whose lines were found; `block` are its columns, if its rows were read already."""
+    within, skipped = _within(rows, found) if block is None else ([*range(found.first, found.last + 1)], 0)
+    short, remarks = _around(rows, found, decimal, skipped)
+    kept = [*within, *short]
+    if block is None or short:
+        block = pd.DataFrame([[*rows[k][: found.width], *[""] * (found.width - len(rows[k]))] for k in kept], dtype=str)
     if found.header is None:
         _require_unsplit_header(rows, found, decimal)
         remarks.append("no line of column names above the numbers; columns are named column 1, column 2, ...")
     names = uncommented(rows[found.header])[: found.width] if found.header is not None else []
     names = unique_names([*names, *[""] * (found.width - len(names))])
     units = _units(rows[found.units], found.width) if found.units is not None else [None] * found.width
-    padded = [[*rows[k][: found.width], *[""] * (found.width - len(rows[k]))] for k in kept]
-    cells = pd.DataFrame(padded, columns=names, dtype=str)
-    columns = tuple(RawColumn(name, cells[name], unit) for name, unit in zip(names, units, strict=True))
+    columns = tuple(RawColumn(name, block[k], unit) for k, (name, unit) in enumerate(zip(names, units, strict=True)))
     return RawTable(columns, _rate(rows[: found.first]), np.array(kept) + 1, decimal, tuple(remarks))
 
 
@@ -60,9 +66,9 @@ def _require_unsplit_header(rows: Sequence[Cells], found: TableLines, decimal: s
         )
 
 
-def _kept(rows: Sequence[Cells], found: TableLines, decimal: str) -> tuple[list[int], list[str]]:
-    """Indices of the rows of the table, and remarks about lines that are left out."""
-    kept, remarks, skipped = [], [], 0
+def _within(rows: Sequence[Cells], found: TableLines) -> tuple[list[int], int]:
+    """Indices of the rows of the table, and how many lines between them are comments or repeat the header."""
+    kept, skipped = [], 0
     repeated = [rows[k] for k in (found.header, found.units) if k is not None]
     for k in range(found.first, found.last + 1):
         row = rows[k]
@@ -73,16 +79,18 @@ def _kept(rows: Sequence[Cells], found: TableLines, decimal: str) -> tuple[list[
             raise InputError(f"{len(trimmed(row, 0))} cells in row {k + 1}, but {names}: a separator that is also in the cells?")
         else:
             kept.append(k)
+    return kept, skipped
+
+
+def _around(rows: Sequence[Cells], found: TableLines, decimal: str, skipped: int) -> tuple[list[int], list[str]]:
+    """Indices of rows after the table that belong to it, and remarks about lines that are left out."""
     after = [k for k in range(found.last + 1, len(rows)) if any(rows[k])]
     # Rows without their last, empty cells belong to the table, but a torn last line holds a torn number.
     short = [k for k in after[:-1] if 2 <= len(rows[k]) < found.width and fits(rows[k], found.numeric, decimal)]
-    if skipped:
-        remarks.append(f"{_lines(skipped)} within the table skipped: comments or a repeated header")
+    remarks = [f"{_lines(skipped)} within the table skipped: comments or a repeated header"] if skipped else []
     if left := len(after) - len(short):
-        remarks.append(
-            f"{_lines(left)} after the table (from line {after[-1] + 1}) not read as numbers"
-        )
-    return [*kept, *short], remarks
+        remarks.append(f"{_lines(left)} after the table (from line {after[-1] + 1}) not read as numbers")
+    return short, remarks
 
 
 def _lines(count: int) -> str:

@@ -1,5 +1,8 @@
 """Penalised least squares with banded normal matrices, and the likelihood of the penalty's weight."""
 
+from copy import copy
+from typing import Self
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
@@ -15,11 +18,18 @@ class PenalisedProblem:
     """
 
     def __init__(self, design: csr_array, roughness: csr_array, signal: Floats, degree: int, scale: float | None = None) -> None:
+        self.degree = degree
         self.data, penalty = _banded(design.T @ design, degree), _banded(roughness.T @ roughness, degree)
         self.scale = self.data[0].sum() / penalty[0].sum() if scale is None else scale
         self.penalty = penalty * self.scale
         self.right, self.square = design.T @ signal, float(signal @ signal)
         self.count, self.rank = len(signal), self.data.shape[1] - 1
+
+    def with_roughness(self, roughness: csr_array) -> Self:
+        """The same problem with another roughness of the same scale."""
+        other = copy(self)
+        other.penalty = _banded(roughness.T @ roughness, self.degree) * self.scale
+        return other
 
     def solve(self, weight: float) -> tuple[float, Floats]:
         """-2 log restricted likelihood (less a constant) and coefficients for log10 of the penalty's weight."""

@@ -13,8 +13,9 @@ from .trip import Piece
 Floats = NDArray[np.float64]
 
 SHORTEST_RAMP = 1e-3  # s; a ramp of the acceleration takes time, or the jerk would be infinite
-ENOUGH = 1000  # samples of the whole record from which the outliers are found
+ENOUGH = 1000  # samples of the whole record from which the outliers are found, and the fit of all others begins
 MOST_TRIALS = 150  # of a fit; a profile settles within a hundred, and a car that follows none need not be waited for
+LAST_TRIALS = 10  # of the fit to all samples, which begins beside its end
 
 
 def jerk_limited(origin: float, distance: float, start: float, phases: Floats) -> Piece:
@@ -92,20 +93,26 @@ def _first_parameters(guess: Guess) -> Floats:
 def _fit(time: Floats, position: Floats, noise: float, phases: NDArray[np.int_], first: Floats) -> Fit:
     lower = np.concatenate(([-np.inf] * 3, np.zeros(len(first) - 3)))
     lower[3 + phases[[0, 2, 4, 6]]] = SHORTEST_RAMP
-    parameters, used = np.maximum(first, lower), np.zeros(len(time), dtype=bool)
-    used[:: max(len(time) // ENOUGH, 1)] = True
+    parameters = np.maximum(first, lower)
+    thin = np.zeros(len(time), dtype=bool)
+    thin[:: max(len(time) // ENOUGH, 1)] = True
+    used = thin
 
     def residual(p: Floats) -> Floats:
         return (_shape(p, phases).value(time[used]) - position[used]) / noise
 
-    # The first, robust pass is not drawn aside by outliers; the second one, of all but them, is the best fit.
-    for loss in ("soft_l1", "linear"):
-        bounds = (lower, np.inf)
-        solution = least_squares(residual, parameters, bounds=bounds, x_scale="jac", loss=loss, f_scale=3.0, max_nfev=MOST_TRIALS)
+    # The first, robust pass is not drawn aside by outliers; the last one, of all samples but them, is the best fit.
+    for loss, trials, last in (("soft_l1", MOST_TRIALS, False), ("linear", MOST_TRIALS, False), ("linear", LAST_TRIALS, True)):
+        solution = least_squares(
+            residual, parameters, bounds=(lower, np.inf), x_scale="jac", loss=loss, f_scale=3.0, max_nfev=trials
+        )
         parameters = solution.x
         piece = _shape(parameters, phases)
         misfit = (position - piece.value(time)) / noise
-        used = inliers(misfit)
+        good = inliers(misfit)
+        used = good if loss == "linear" else good & thin
+        if last or (loss == "linear" and thin.all()):
+            break
     criterion = used.sum() * np.log(np.mean(misfit[used] ** 2)) + len(parameters) * np.log(used.sum())
     return Fit(piece, used, float(criterion), parameters)
 

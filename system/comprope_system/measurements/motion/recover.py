@@ -64,9 +64,10 @@ def _recovered(signal: Signal, good: NDArray[np.bool_], motion: Motion) -> Trip:
     whole = spans[0][0], spans[-1][1]
     if motion == "exact":
         return _exact(signal.of(good), whole, "")
-    # A window reaches from the end of the motion before to the beginning of the next, or some seconds into a long rest.
-    begins = [-np.inf, *(stop for _, stop in spans[:-1])]
-    ends = [*(start for start, _ in spans[1:]), np.inf]
+    # A window reaches near to the motions before and after, which begin earlier and end later than is seen, or into a long rest.
+    margins = [min(MARGIN, 0.5 * (after[0] - one[1])) for one, after in pairwise(spans)]
+    begins = [-np.inf, *(stop + margin for (_, stop), margin in zip(spans, margins, strict=False))]
+    ends = [*(start - margin for (start, _), margin in zip(spans[1:], margins, strict=True)), np.inf]
     trips = []
     for begin, span, end in zip(begins, spans, ends, strict=True):
         inside = (signal.time >= max(begin, span[0] - LONGEST_REST)) & (signal.time <= min(end, span[1] + LONGEST_REST))
