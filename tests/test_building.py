@@ -1,15 +1,19 @@
 """Buildings that move: records of a model file, replayed by simulations."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 from scipy.interpolate import CubicSpline
+from typer.testing import CliRunner
 
 import comprope_system
 from comprope.errors import InputError
 from comprope.rope.model_file import dump, load, with_changes
+from comprope_system import cli
 from comprope_system.building_motion.record import building_record
 from comprope_system.presets import model_path
 from comprope_system.simulation.result import SimulationResult
@@ -164,3 +168,21 @@ def test_a_model_file_keeps_its_building(tmp_path: Path) -> None:
     dump(model, tmp_path / "again.toml")
     assert 'record = "r.csv"' in (tmp_path / "again.toml").read_text(encoding="utf-8")
     assert load(tmp_path / "again.toml") == model
+
+
+def test_the_example_of_three_fmus_does_what_simulate_does(tmp_path: Path) -> None:
+    """Drive, building and rope in fmpy, the building from the ground's acceleration; the model replays its displacements."""
+    assert CliRunner().invoke(cli.app, ["fmu", "tower50", "--out", str(tmp_path)]).exit_code == 0
+    made = comprope_system.building("tower50", duration=30.0, period=1.12, damping=0.02)
+    made.to_csv(tmp_path / "levels.csv")
+    made.save_model(tmp_path / "m.toml", tmp_path / "levels.csv")
+    ground = {"time": made.record.times, "ground_acceleration": made.record.ground_acceleration}
+    pd.DataFrame(ground).to_csv(tmp_path / "ground.csv", index=False)
+    script = Path(__file__).parent.parent / "docs" / "examples" / "building_trip.py"
+    files = ["ElevatorDrive.fmu", "CompensationRope.fmu", "ground.csv", "trip.csv"]
+    subprocess.run([sys.executable, script, *(tmp_path / name for name in files), "5"], check=True, timeout=120)
+    found = pd.read_csv(tmp_path / "trip.csv")
+    same = comprope_system.simulate(tmp_path / "m.toml", duration=5.0).table
+    for name, tolerance in (("car_position", 1e-5), ("car_lateral_displacement", 2e-5), ("sheave_force", 0.1)):
+        assert np.abs(found[name] - same[name]).max() < tolerance, name
+    assert np.ptp(found["car_lateral_displacement"]) > 1e-3

@@ -1,6 +1,6 @@
 """Lateral motion of the building by height and time, from a few coordinates and the shape of each.
 
-u(z, t) = sum of shape_k(z) r_k(t), natural cubic splines over the height and cubic splines in time. The frame is that of the
+u(z, t) = sum of shape_k(z) r_k(t), cubic splines over the height and in time. The frame is that of the
 base, the height of the sheave's axle: what is given is u(z, t) - u(base, t), and the base's acceleration.
 """
 
@@ -17,7 +17,7 @@ class BuildingMotion:
     def __init__(self, heights: ArrayLike, shapes: ArrayLike, coordinates: CubicSpline, base: float) -> None:
         """`shapes` (k, heights) of the `coordinates` (k) [m], which are a spline in time [s]; `base` is a height [m]."""
         self._low, self._high = float(np.min(heights)), float(np.max(heights))
-        self._shapes = CubicSpline(heights, np.asarray(shapes, float).T, bc_type="natural")
+        self._shapes = CubicSpline(heights, np.asarray(shapes, float).T)
         self._slopes = self._shapes.derivative()
         self._base = self._shape(base)
         self._coordinates, self._accelerations = coordinates, coordinates.derivative(2)
