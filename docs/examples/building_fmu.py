@@ -5,7 +5,8 @@ Made with pythonfmu, which needs no more than this file and the record:
     pythonfmu build -f docs/examples/building_fmu.py ground.csv
 
 The record has the columns `time` [s] and `ground_acceleration` [m/s2] and is packed into the FMU; it is taken to be linear
-between its samples. Positions of car and counterweight come from the drive's FMU; outputs have the names of the inputs of the rope's FMU.
+between its samples. Positions of car and counterweight come from the drive's FMU; outputs have the names of the inputs of the
+rope's FMU.
 """
 
 import csv

@@ -1,8 +1,8 @@
 """Drive, building and rope as three FMUs in fmpy: `python docs/examples/building_trip.py DRIVE.fmu ROPE.fmu ground.csv trip.csv`.
 
 Builds the building's FMU from building_fmu.py and the record `ground.csv` (columns `time` [s], `ground_acceleration` [m/s2]),
-then steps the drive, the building and the rope, each with what the one before it has found for the end of the step. The optional fifth
-argument is the simulated time [s].
+then steps the drive, the building and the rope, each with what the one before it has found for the end of the step. The optional
+fifth argument is the simulated time [s].
 """
 
 import csv

@@ -141,7 +141,7 @@ class SwayResult(Result):
                 one.contour(self.cars, self.periods, shown, [1e3 * self.options.limit], colors="white", linewidths=1.0)
             for waves, style in ((1, "-"), (2, "--"), (3, ":")):
                 own = [side_string(self.model, float(car), side).period(waves) for car in self.cars]
-                one.plot(self.cars, own, style, color="#e8893b", linewidth=1.0, label=f"{waves} half wave{'s' * (waves > 1)}")
+                one.plot(self.cars, own, style, color="#d7191c", linewidth=1.0, label=f"{waves} half wave{'s' * (waves > 1)}")
             if self.options.period:
                 one.axhline(self.options.period, color="white", linewidth=0.8)
             one.set_yscale("log")
