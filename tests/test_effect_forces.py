@@ -165,7 +165,10 @@ def test_effect_moves_the_ends_as_its_formula_says(effect: str, changes: dict[st
 
 
 def test_every_effect_is_compared_with_a_formula() -> None:
-    elsewhere = {"building_sway", "attachment_offset", "encoder_scale", "sheave_eccentricity", "end_stops", "shaft_walls"}
+    elsewhere = {
+        "building_sway", "attachment_offset", "encoder_scale", "sheave_eccentricity", "sloped_guide", "end_stops",
+        "shaft_walls",
+    }  # fmt: skip
     assert elsewhere | set(FORMULAS) == set(REGISTRY)
 
 
@@ -192,6 +195,16 @@ def test_an_eccentric_groove_lifts_the_axle_and_shifts_the_rope_towards_its_cent
     assert below == pytest.approx([e, 0.0, 0.0], abs=3e-5)
     assert aside[0] == pytest.approx(0.0, abs=1e-5)
     assert aside[1:] == pytest.approx([0.85 * e, -0.85 * e], rel=0.1)
+
+
+def test_a_sloped_guide_shifts_the_rope_by_its_slope_times_how_far_the_axle_has_sunk() -> None:
+    """Both sides move towards the counterweight as by an eccentric groove."""
+    plain = hung({})
+    sunk = np.array(hung({"effects.sloped_guide.slope": 5.0}))
+    shift = -5.0 * sunk[0]
+    assert shift > 5e-4  # m
+    assert sunk[0] == pytest.approx(plain[0], rel=0.02)
+    assert sunk[1:] - plain[1:] == pytest.approx([-0.85 * shift, 0.85 * shift], rel=0.1)
 
 
 # Those that act on a rope at rest: a building that sways moves its ends, an eccentric or unbalanced sheave turns under weight.

@@ -166,5 +166,5 @@ def test_the_order_of_effects_stays() -> None:
         "air_drag", "shaft_airflow", "bending_hysteresis", "intrinsic_curvature", "building_sway", "attachment_offset",
         "sheave_eccentricity", "bearing_friction", "guide_friction", "sheave_damper", "end_stops", "tie_down",
         "shaft_walls", "sheave_unbalance", "jammed_seal", "jammed_guide", "sticky_guide", "rope_brush", "rope_guide",
-        "encoder_scale",
+        "encoder_scale", "sloped_guide",
     ]  # fmt: skip

@@ -55,6 +55,7 @@ DIRECTIONS = {
     "sticking": {"effects.sticky_guide.breakaway_force": 1.0},
     "brush": {"effects.rope_brush.stiffness": 1.0, "effects.rope_brush.damping": 0.2},
     "rubbing": {"effects.rope_guide.stiffness": 1.0},
+    "sloped": {"effects.sloped_guide.slope": 1.0},
     "encoder": {"effects.encoder_scale.excess": 1.0},
 }
 # Effects that are declared but do nothing yet; effects that act already, one of them with a history.
@@ -72,7 +73,7 @@ MOTIONS, FORCES = ("cw_low", "car_low", "axle", "turning"), ("weight", "pull")
 # comes to touch it that did not; much where the answer is small beside the 1e-8 m to which a time step converges.
 SHARE = 1e-5
 SHARES = {"radius": 1e-7, "pit": 1e-7, "inertia": 1e-6, "drag": 0.1, "slip": 1e-4, "bent": 1e-4,
-          "guides": 1e-3, "brush": 0.01, "rubbing": 0.01, "seal": 0.01}  # fmt: skip
+          "guides": 1e-3, "sloped": 1e-3, "brush": 0.01, "rubbing": 0.01, "seal": 0.01}  # fmt: skip
 
 # What a tenth of a parameter may change without anybody seeing it: a hundredth of a fine instrument's noise.
 UNSEEN = {"cw_low": 1e-6, "car_low": 1e-6, "axle": 1e-7, "turning": 1e-5, "weight": 1e-2, "pull": 1e-2}

@@ -112,6 +112,7 @@ CAUSES: dict[str, Cause] = {
         "known", {"guide_coulomb": Draw(0.3, 30.0), "breakaway": Draw(0.6, 60.0)}, {"stribeck_velocity": Draw(1e-3, 4e-3)},
     ),
     "jammed_seal": tower("known", {"seal_stiffness": Draw(5e-3, 0.3)}),
+    "sloped_guide": tower("known", {"guide_slope": Draw(0.1, 1.5, signed=True)}),
     # the instrument; offset, drift and unit in SI
     "sensor_gain": Cause(
         "instrument", {"excess": Draw(0.02, 0.2, signed=True)}, channel=instruments.sensor_gain, quantities=EVERY
@@ -140,7 +141,6 @@ CAUSES: dict[str, Cause] = {
         near=("attachment_offset",),
     ),
     "knock": Cause("outside", {"size": Draw(5e-4, 2e-2, signed=True)}, {"seconds": Draw(0.2, 0.8)}, excitation=ends.knock),
-    "sloped_guide": tower("outside", {"guide_slope": Draw(0.1, 1.5, signed=True)}),
     # the data
     "sensor_drift": Cause(
         "data", {"per_minute": Draw(5e-4, 1e-2, signed=True)}, channel=instruments.sensor_drift, quantities=LATERAL

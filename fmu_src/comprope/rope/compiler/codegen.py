@@ -14,6 +14,11 @@ def hook_source(hook: str, effects: list[type[Effect]]) -> str:
         for _, call in calls:
             lines += [f"a, b, c, d = {call}", "x, y, gx, gy = x + a, y + b, gx + c, gy + d"]
         return _function(hook, HOOKS[hook], [*lines, "return x, y, gx, gy"])
+    if hook == "rail":
+        lines = ["y, slope = 0.0, 0.0"]
+        for _, call in calls:
+            lines += [f"a, b = {call}", "y, slope = y + a, slope + b"]
+        return _function(hook, HOOKS[hook], [*lines, "return y, slope"])
     powered = hook in ("moments", "forces")
     arguments = HOOKS[hook] + (", power" if powered else "")
     lines = [f"power[{k}] {'=' if hook == 'moments' else '+='} {call}" if powered else call for k, call in calls]

@@ -14,7 +14,7 @@ from ..parameters import Base
 # references hosts keep: a new effect comes last.
 from . import air_drag, bending_hysteresis, intrinsic_curvature, end_displacement, sheave_eccentricity, sheave_friction
 from . import end_stops, tie_down, shaft_walls
-from . import sheave_unbalance, jammed_seal, jammed_guide, sticky_guide, rope_guides, encoder_scale
+from . import sheave_unbalance, jammed_seal, jammed_guide, sticky_guide, rope_guides, encoder_scale, sloped_guide
 # isort: on
 
 from . import user_effects
@@ -23,8 +23,8 @@ from .base import HOOKS, INSTRUMENT, REGISTRY, Effect, acts, register
 __all__ = [
     "HOOKS", "INSTRUMENT", "REGISTRY", "Effect", "RopeModel", "acts", "air_drag", "bending_hysteresis", "encoder_scale",
     "end_displacement", "end_stops", "intrinsic_curvature", "jammed_guide", "jammed_seal", "model_type", "names_of", "register",
-    "rope_guides", "shaft_walls", "sheave_eccentricity", "sheave_friction", "sheave_unbalance", "sticky_guide", "tie_down",
-    "user_effects",
+    "rope_guides", "shaft_walls", "sheave_eccentricity", "sheave_friction", "sheave_unbalance", "sloped_guide", "sticky_guide",
+    "tie_down", "user_effects",
 ]  # fmt: skip
 
 class RopeModel(Base):

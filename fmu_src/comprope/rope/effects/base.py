@@ -8,6 +8,7 @@ section, see `runtime.array_layout`; HOOKS):
     tangents(n, t, p, q, v, w, A, weights)   subtracts ck df/dq + cc df/dv of its forces from A; ck, cc = weights
     ends(n, t, p, q, v, a)              moves the rope's ends
     groove(p, angle) -> x, y, x', y'    offset of the groove's centre from the axle, and by angle
+    rail(p, depth) -> y, y'             offset of the axle from the middle at a depth, and by depth
     begin(n, p, w, h0)                  sets the history h0 of a rope at rest
 
 An effect with history is left out of the static equilibrium: its history begins there.
@@ -33,9 +34,10 @@ HOOKS = {
     "tangents": "n, t, p, q, v, w, A, weights",
     "ends": "n, t, p, q, v, a",
     "groove": "p, angle",
+    "rail": "p, depth",
     "begin": "n, p, w, h0",
 }
-HOOK_TYPES: dict[str, Any] = {"n": int, "t": float, "angle": float, "weights": Weights}  # all others are arrays
+HOOK_TYPES: dict[str, Any] = {"n": int, "t": float, "angle": float, "depth": float, "weights": Weights}  # all others are arrays
 # What instruments do to what they show: one value per channel. No part of the rope, so the kernels know nothing of it.
 INSTRUMENT = {
     "sensor_gain": "measured / true value of a channel, by the channel's column",

@@ -26,7 +26,10 @@ COLOURS = re.compile(r"\x1b\[[0-9;]*m")  # of the compiler's messages, where a p
 CLOSE = 1e-5  # relative, for what has to be exact: what differences leave
 ROUGH = 0.2  # relative, for tangents, which may be approximate
 _BLOCKS = ((0, 0), (1, 3), (2, 7))  # how far apart the nodes of a block of the band are, and its first section
-_RETURNED = {"groove": "x, y and their derivatives by the angle", "moments": "the power [W]", "forces": "the power [W]"}
+_RETURNED = {
+    "groove": "x, y and their derivatives by the angle", "rail": "y and its derivative by the depth",
+    "moments": "the power [W]", "forces": "the power [W]",
+}  # fmt: skip
 
 
 def require_consistent(effect: type[Effect]) -> None:
@@ -84,7 +87,7 @@ def _result_problem(effect: type[Effect], hook: str) -> str | None:
 def _returns_as_declared(hook: str, given: Any) -> bool:
     """Whether a hook returns as many numbers as it should."""
     numbers = given if isinstance(given, tuple) else () if given is None else (given,)
-    wanted = {"groove": 4, "moments": 1, "forces": 1}.get(hook, 0)
+    wanted = {"groove": 4, "rail": 2, "moments": 1, "forces": 1}.get(hook, 0)
     return len(numbers) == wanted and all(isinstance(one, int | float) for one in numbers)
 
 
@@ -194,4 +197,14 @@ def _groove(effect: type[Effect]) -> str | None:
     return "the last two numbers that it returns are not the derivatives of the first two by the angle" if wrong else None
 
 
-_CHECKS = {"forces": _forces, "moments": _moments, "tangents": _tangents, "ends": _ends, "groove": _groove}
+def _rail(effect: type[Effect]) -> str | None:
+    trial = TrialState(effect, nominal=True)
+
+    def lower(step: float) -> None:
+        trial.arguments["depth"] += step
+
+    wrong = _differ(trial.call("rail")[1:], trial.slope(lower, lambda: np.array(trial.call("rail")))[:1])
+    return "the second number that it returns is not the derivative of the first by the depth" if wrong else None
+
+
+_CHECKS = {"forces": _forces, "moments": _moments, "tangents": _tangents, "ends": _ends, "groove": _groove, "rail": _rail}

@@ -52,7 +52,8 @@ def whirl(n, t, p, q, v, w, f):
 @kernel
 def whirl_tangent(n, t, p, q, v, w, A, weights):
     """Stiffness of the weight; how the force on the axle changes with the sheave's rotation is left out: it is not symmetric."""
-    A[DYY * (n + 1) + n] += weights.ck * p[UNBALANCE] * p[G] * cos(q[2 * n + 1] + p[PHASE])
+    if p[UNBALANCE] != 0.0:
+        A[DYY * (n + 1) + n] += weights.ck * p[UNBALANCE] * p[G] * cos(q[2 * n + 1] + p[PHASE])
 
 
 acts(SheaveUnbalance, forces=whirl, tangents=whirl_tangent)

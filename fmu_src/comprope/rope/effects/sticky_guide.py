@@ -44,6 +44,8 @@ def stribeck(p, v):
 @kernel
 def stick(n, t, p, q, v, w, f):
     """Subtract the guide's friction."""
+    if p[BREAKAWAY] == 0.0 and p[SLIDING] == 0.0:
+        return 0.0
     force = stribeck(p, v[n])[0]
     f[n] -= force
     return -force * v[n]
@@ -52,7 +54,8 @@ def stick(n, t, p, q, v, w, f):
 @kernel
 def stick_tangent(n, t, p, q, v, w, A, weights):
     """Derivative of the friction where it grows with velocity; where it falls Newton's iteration does without, to stay stable."""
-    A[DXX * (n + 1) + n] += weights.cc * max(stribeck(p, v[n])[1], 0.0)
+    if p[BREAKAWAY] != 0.0 or p[SLIDING] != 0.0:
+        A[DXX * (n + 1) + n] += weights.cc * max(stribeck(p, v[n])[1], 0.0)
 
 
 acts(StickyGuide, forces=stick, tangents=stick_tangent)

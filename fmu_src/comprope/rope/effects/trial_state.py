@@ -25,7 +25,8 @@ class TrialState:
         self.p = np.array([self._value(name, nominal) for name in DECLARED])
         at = _hanging_shape(self.p)
         m = n + 1
-        self.arguments: dict[str, Any] = {"n": n, "t": TIME, "p": self.p, "angle": 0.3, "weights": Weights(0.0, 0.0)}
+        self.arguments: dict[str, Any] = {"n": n, "t": TIME, "p": self.p, "weights": Weights(0.0, 0.0)}
+        self.arguments |= {"angle": 0.3, "depth": 1.7}
         self.arguments["q"] = np.concatenate([at[0], [self.p[PIT]], at[1], [0.3]]) + 1e-3 * random.normal(size=2 * m)
         self.arguments |= {"v": 0.2 * random.normal(size=2 * m), "a": random.normal(size=2 * m), "f": np.zeros(2 * m)}
         history = 0.05 * random.normal(size=sections([effect.name]) * m + 1)

@@ -45,15 +45,16 @@ def point_tangent(weights, normal, velocity, rho, pressure, friction):
 def add_force_tangent(n, Z, i, shapes, a, centre, spin):
     """Subtract one point's tangent `a` from the node blocks, the sheave's columns and its height's row.
 
-    The sheave's height moves the point's relative position by -1 in x, its angle by -g (`centre`), and its spin
-    adds b (`spin`) through the slip.
+    The sheave's height moves the point's relative position by -1 in x and by -slope in y, its angle by -g (`centre` holds
+    both), and its spin adds b (`spin`) through the slip.
     """
     na, nb, nc = shapes
     axx, axy, ayx, ayy = a
-    gx, gy = centre
+    gx, gy, slope = centre
     bx, by = spin
     m = n + 1
     cx, cy = bx - (axx * gx + axy * gy), by - (ayx * gx + ayy * gy)
+    kx, ky = axx + slope * axy, ayx + slope * ayy
     for k, wk in ((0, na), (1, nb), (2, nc)):
         row = i - 1 + k
         for j, wj in ((0, na), (1, nb), (2, nc)):
@@ -62,14 +63,14 @@ def add_force_tangent(n, Z, i, shapes, a, centre, spin):
             Z[(block + 1) * m + row] -= weight * axy
             Z[(block + 2) * m + row] -= weight * ayx
             Z[(block + 3) * m + row] -= weight * ayy
-        Z[COLUMNS * m + row] += wk * axx
+        Z[COLUMNS * m + row] += wk * kx
         Z[(COLUMNS + 1) * m + row] -= wk * cx
-        Z[(COLUMNS + 2) * m + row] += wk * ayx
+        Z[(COLUMNS + 2) * m + row] += wk * ky
         Z[(COLUMNS + 3) * m + row] -= wk * cy
-        Z[ROWS * m + row] += wk * axx
-        Z[(ROWS + 1) * m + row] += wk * axy
-    Z[CONTACT * m] -= axx
-    Z[CONTACT * m + 1] += cx
+        Z[ROWS * m + row] += wk * (axx + slope * ayx)
+        Z[(ROWS + 1) * m + row] += wk * (axy + slope * ayy)
+    Z[CONTACT * m] -= kx + slope * ky
+    Z[CONTACT * m + 1] += cx + slope * cy
 
 
 @kernel
@@ -80,7 +81,7 @@ def add_torque_tangent(n, Z, i, shapes, a, centre, spin, arm):
     """
     na, nb, nc = shapes
     axx, axy, ayx, ayy = a
-    gx, gy = centre
+    gx, gy, slope = centre
     bx, by = spin
     lx, ly, hx, hy = arm
     m = n + 1
@@ -88,5 +89,5 @@ def add_torque_tangent(n, Z, i, shapes, a, centre, spin, arm):
     for k, wk in ((0, na), (1, nb), (2, nc)):
         Z[(ROWS + 2) * m + i - 1 + k] -= wk * rx
         Z[(ROWS + 3) * m + i - 1 + k] -= wk * ry
-    Z[CONTACT * m + 2] += rx
+    Z[CONTACT * m + 2] += rx + slope * ry
     Z[CONTACT * m + 3] += rx * gx + ry * gy + lx * bx + ly * by

@@ -35,3 +35,9 @@ def all_begin(n, p, w, h0):
 def all_groove(p, angle):
     """Offset (x, y) of the groove's centre from the axle, and its derivative by angle."""
     return 0.0, 0.0, 0.0, 0.0
+
+
+@kernel
+def all_rail(p, depth):
+    """Offset y of the axle from the middle between the sheave's sides at a depth, and its derivative by depth."""
+    return 0.0, 0.0

@@ -17,7 +17,7 @@ from ..runtime.array_layout import CONTACT_RESULTS, ELASTIC, FIRST, FORCE_X, FRI
 from ..runtime.parameter_vector import ELEMENT, K, R
 from .contact_law import POINTS, contact_radius, friction_law, normal_law, shape
 from .contact_tangent import add_force_tangent, add_torque_tangent, clear_contact_tangent, point_tangent
-from .effect_hooks import all_groove
+from .effect_hooks import all_groove, all_rail
 
 
 @kernel
@@ -38,10 +38,18 @@ def find_contact_range(n, p, q, ox, oy, contact):
 
 
 @kernel
+def place_groove(p, depth, angle):
+    """Offset (x, y) of the groove's centre from (depth, 0), its derivative by the sheave's angle, and that of y by depth."""
+    x, y, gx, gy = all_groove(p, angle)
+    aside, slope = all_rail(p, depth)
+    return x, y + aside, gx, gy, slope
+
+
+@kernel
 def add_contact(n, p, motion, work, weights, tangent):
     """Add contact and friction to the forces on nodes and sheave; with `tangent` set work.Z to their tangent."""
     m, q, contact = n + 1, motion.q, work.contact
-    groove = all_groove(p, q[m + n])
+    groove = place_groove(p, q[n], q[m + n])
     find_contact_range(n, p, q, q[n] + groove[0], groove[1], contact)
     first, last = int(contact[FIRST]), int(contact[LAST])
     if tangent:
@@ -73,13 +81,13 @@ def add_piece(n, p, motion, i, groove, work, weights, tangent):
     """Add the contact forces of the piece of node i, summed over its quadrature points.
 
     dx, dy and vx, vy are position and velocity relative to the groove's centre; gx, gy is how that
-    centre moves with the sheave's angle.
+    centre moves with the sheave's angle, slope how it moves aside with the sheave's depth.
     """
     q, v, contact = motion.q, motion.v, work.contact
-    ex, ey, gx, gy = groove
+    ex, ey, gx, gy, slope = groove
     ck, cc = weights
     m, radius, spin, length = n + 1, contact_radius(p), v[n + n + 1], p[ELEMENT] / POINTS
-    fx, fy, vx0, vy0 = q[n] + ex, ey, v[n] + spin * gx, spin * gy
+    fx, fy, vx0, vy0 = q[n] + ex, ey, v[n] + spin * gx, spin * gy + slope * v[n]
     ax, ay, bx, by, cx, cy, turn = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for g in range(POINTS):
         na, nb, nc = shape(g)
@@ -103,14 +111,14 @@ def add_piece(n, p, motion, i, groove, work, weights, tangent):
                 axx, axy, ayx, ayy = point_tangent(weights, (nx, ny), (vx, vy), rho, (P, P_depth, P_rate), (grip, grip_slip))
                 a = length * axx, length * axy, length * ayx, length * ayy
                 drive, stiff = -cc * length * P * grip_slip * radius, ck * length * P * radius / rho
-                shapes, centre, slipping = (na, nb, nc), (gx, gy), (-drive * ny, drive * nx)
+                shapes, centre, slipping = (na, nb, nc), (gx, gy, slope), (-drive * ny, drive * nx)
                 add_force_tangent(n, work.Z, i, shapes, a, centre, slipping)
                 add_torque_tangent(n, work.Z, i, shapes, a, centre, slipping, (lx, ly, stiff * nx, stiff * ny))
-    add_to_nodes(n, work, i, (ax, ay), (bx, by), (cx, cy), turn)
+    add_to_nodes(n, work, i, (ax, ay), (bx, by), (cx, cy), turn, slope)
 
 
 @kernel
-def add_to_nodes(n, work, i, a, b, c, turn):
+def add_to_nodes(n, work, i, a, b, c, turn, slope):
     """Add a piece's forces on its three nodes, and their reaction on the sheave: eq. (2)."""
     m, f = n + 1, work.f
     f[i - 1] += a[0]
@@ -119,6 +127,6 @@ def add_to_nodes(n, work, i, a, b, c, turn):
     f[m + i] += b[1]
     f[i + 1] += c[0]
     f[m + i + 1] += c[1]
-    f[n] -= a[0] + b[0] + c[0]
+    f[n] -= a[0] + b[0] + c[0] + slope * (a[1] + b[1] + c[1])
     f[m + n] -= turn
     work.contact[FORCE_X] -= a[0] + b[0] + c[0]

@@ -30,8 +30,9 @@ def block_derivative(rope, state, work, directions, block, combination):
         b = first_entry(m, k) + (2 * n + 1) * LANES
         e = difference_step(n, p[R], directions, k)
         shift_parameters(directions, k, e)
-        turned = dq[b] + h * (dv[b] + 0.5 * h * da[b])
-        centre_derivative(e, p, beside.p1, state.q[m + n], turned, k % LANES, beside.centre)
+        turned, x = dq[b] + h * (dv[b] + 0.5 * h * da[b]), b - LANES
+        moves = dq[x] + h * (dv[x] + 0.5 * h * da[x]), turned
+        centre_derivative(e, (p, beside.p1), (state.q[n], state.q[m + n]), moves, k % LANES, beside.centre)
     contact_derivative(n, p, state, work.contact, directions, block, combination)
 
 

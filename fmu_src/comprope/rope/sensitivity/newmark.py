@@ -17,9 +17,8 @@ from ..integration.newmark import factor_tangent, newmark_weights, time_rule
 from ..linalg.bordered_band import assemble_bordered, factor_bordered
 from ..linalg.multi_rhs import solve_lanes
 from ..mechanics.contact_tangent import clear_contact_tangent
-from ..mechanics.effect_hooks import all_groove
 from ..mechanics.equations_of_motion import forces, node_mass
-from ..mechanics.sheave_contact import add_pieces
+from ..mechanics.sheave_contact import add_pieces, place_groove
 from ..runtime.array_layout import FIRST, LAST
 from ..runtime.kernel_arguments import Motion, Weights
 from ..runtime.parameter_vector import ALPHA, J, M
@@ -46,7 +45,7 @@ def factor_contact_tangent(n, p, weights, motion, work):
     for i in range(first, last + 1):
         f[i], f[m + i] = 0.0, 0.0
     f[n], f[m + n] = 0.0, 0.0
-    add_pieces(n, p, motion, all_groove(p, q[m + n]), work, weights, True)
+    add_pieces(n, p, motion, place_groove(p, q[n], q[m + n]), work, weights, True)
     assemble_bordered(n, work.A, work.Z, work.B, first, last)
     factor_bordered(2 * (last - first + 1), work.B)
 

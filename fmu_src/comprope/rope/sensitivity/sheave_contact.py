@@ -6,15 +6,14 @@ velocity relative to the groove's centre, rho = |r|, n = r / rho, and forces h =
     drho = n . dr,  dn = (dr - n drho) / rho,
     ddepth = dR_c - drho,  drate = -(dn . u + n . du),  dslip = dn x u + n x du + dspin R_c + spin dR_c.
 
-How the groove's centre itself answers is read off `all_groove` by differences, whatever effects move it.
+How the groove's centre itself answers is read off `place_groove` by differences, whatever effects move it.
 """
 
 from math import sqrt
 
 from ...kernels.jit import kernel
 from ..mechanics.contact_law import FADE, POINTS, contact_radius, friction_law, normal_law, shape
-from ..mechanics.effect_hooks import all_groove
-from ..mechanics.sheave_contact import near
+from ..mechanics.sheave_contact import near, place_groove
 from ..runtime.array_layout import FIRST, LAST
 from ..runtime.parameter_vector import ELEMENT, MU, V0, C, K, R
 from ..runtime.simd import LANES, load, store
@@ -22,12 +21,16 @@ from .internal_forces import predicted
 
 
 @kernel
-def centre_derivative(e, p, p1, angle, turned, lane, centre):
-    """Set lane `lane` of `centre` to the derivatives of the groove's offset and of its derivative by angle, by a difference e."""
-    ex, ey, gx, gy = all_groove(p, angle)
-    ex1, ey1, gx1, gy1 = all_groove(p1, angle + e * turned)
+def centre_derivative(e, parameters, place, moves, lane, centre):
+    """Set lane `lane` of `centre` to the derivatives of what `place_groove` gives, by a difference e.
+
+    `parameters` are those before and after, `place` is depth and angle of the sheave, `moves` how they change.
+    """
+    ex, ey, gx, gy, slope = place_groove(parameters[0], place[0], place[1])
+    ex1, ey1, gx1, gy1, slope1 = place_groove(parameters[1], place[0] + e * moves[0], place[1] + e * moves[1])
     centre[lane], centre[LANES + lane] = (ex1 - ex) / e, (ey1 - ey) / e
     centre[2 * LANES + lane], centre[3 * LANES + lane] = (gx1 - gx) / e, (gy1 - gy) / e
+    centre[4 * LANES + lane] = (slope1 - slope) / e
 
 
 @kernel
@@ -84,6 +87,16 @@ def pressed(p, radius, dx, dy, vx, vy):
 
 
 @kernel
+def lateral_force(p, point):
+    """Lateral force [N] on the rope at a quadrature point (see `point_derivative`)."""
+    radius, spin, dx, dy, vx, vy, _, _ = point
+    rho = sqrt(dx * dx + dy * dy)
+    nx, ny = dx / rho, dy / rho
+    P = normal_law(p, radius - rho, -(nx * vx + ny * vy))[0]
+    return p[ELEMENT] / POINTS * P * (ny - friction_law(p, nx * vy - ny * vx + spin * radius)[0] * nx)
+
+
+@kernel
 def contact_derivative(n, p, state, contact, directions, block, combination):
     """Add to a block of D `new` times how contact and friction answer, predicted h ahead; set its part of `lift`.
 
@@ -94,16 +107,20 @@ def contact_derivative(n, p, state, contact, directions, block, combination):
     D, centre = directions.work.D, directions.work.centre
     d, base = directions.parameters * LANES * block, 2 * (n + 1) * LANES * block
     m, radius, spin, l = n + 1, contact_radius(p), v[n + n + 1], p[ELEMENT]
-    ex, ey, gx, gy = all_groove(p, q[m + n])
-    fx, fy, vx0, vy0 = q[n] + ex, ey, v[n] + spin * gx, spin * gy
+    ex, ey, gx, gy, slope = place_groove(p, q[n], q[m + n])
+    fx, fy, vx0, vy0 = q[n] + ex, ey, v[n] + spin * gx, spin * gy + slope * v[n]
     grown, sheave = (1.0 / l) * load(dp, d + ELEMENT * LANES), base + 2 * LANES * n
     dradius = (1.0 + l * l / (12.0 * p[R] * p[R])) * load(dp, d + R * LANES) - (l * l / (6.0 * p[R])) * grown
     dx0, dvx0 = predicted(sheave, h, 0.5 * h * h, dq, dv, da)
     _, dspin = predicted(sheave + LANES, h, 0.5 * h * h, dq, dv, da)
-    dgx, dgy = load(centre, 2 * LANES), load(centre, 3 * LANES)
+    dgx, dgy, dslope = load(centre, 2 * LANES), load(centre, 3 * LANES), load(centre, 4 * LANES)
     dx0, dy0 = dx0 + load(centre, 0), load(centre, LANES)
-    dvx0, dvy0 = dvx0 + gx * dspin + spin * dgx, gy * dspin + spin * dgy
-    total, torque, change = 0.0 * dx0, 0.0 * dx0, (dradius, grown, dspin, dgx, dgy)
+    dvy0 = gy * dspin + spin * dgy + slope * dvx0 + v[n] * dslope
+    dvx0 = dvx0 + gx * dspin + spin * dgx
+    total, aside, torque, change = 0.0 * dx0, 0.0 * dx0, 0.0 * dx0, (dradius, grown, dspin, dgx, dgy)
+    side, tilts = 0.0, False
+    for lane in range(LANES):
+        tilts = tilts or centre[4 * LANES + lane] != 0.0
     for i in range(int(contact[FIRST]), int(contact[LAST]) + 1):
         if near(m, p, q, i, fx, fy):
             for g in range(POINTS):
@@ -118,8 +135,9 @@ def contact_derivative(n, p, state, contact, directions, block, combination):
                     point = (radius, spin, dx, dy, vx, vy, gx, gy)
                     hx, hy, twist = point_derivative(p, dp, d, point, change, (x - dx0, y - dy0), (bx - dvx0, by - dvy0))
                     distribute(D, base + 2 * LANES * i, na, nb, nc, new * hx, new * hy)
-                    total, torque = total + hx, torque + twist
-    store(D, sheave, load(D, sheave) - new * total)
+                    total, aside, torque = total + hx, aside + hy, torque + twist
+                    side += lateral_force(p, point) if tilts else 0.0
+    store(D, sheave, load(D, sheave) - new * (total + slope * aside + side * dslope))
     store(D, sheave + LANES, load(D, sheave + LANES) - new * torque)
     store(directions.work.lift, block * LANES, 0.0 * total - total)
 

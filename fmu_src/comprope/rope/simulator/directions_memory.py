@@ -53,7 +53,7 @@ def _workspace(rope: CompensationRope, D: Array, blocks: int, number: int) -> Di
     return DirectionsWorkspace(
         p1=np.zeros(p), frictionless1=np.zeros(p), path1=np.zeros(PATHS * PATH),
         w1=np.zeros(rope.workspace.work.w.size), f1=np.zeros(2 * m), moves=np.zeros(2 * m), elongations=np.zeros(2 * m),
-        centre=np.zeros(4 * LANES),
+        centre=np.zeros(5 * LANES),
         history_before=np.zeros(memory), history_in=np.zeros(memory), history_out=np.zeros(memory),
         D=D, lift=np.zeros(blocks * LANES), readings=np.zeros(sensors * (2 + number)),
     )  # fmt: skip

@@ -60,6 +60,10 @@ MEANINGS = {
         "The guides of the sheave hold until a larger force breaks them away, and then slide with less. The sheave stands still, "
         "jumps, and stands still again."
     ),
+    "sloped_guide": (
+        "The guides of the sheave are inclined, so that it moves sideways as it rises and falls. Both sides of the rope "
+        "are shifted the same way, towards the counterweight's side or the car's, together with the height of the sheave."
+    ),
     "rope_brush": (
         "A brush or damper holds the rope sideways at a height in the shaft. The rope's oscillations decay faster and are smaller"
         " there, on one side only."
@@ -133,6 +137,7 @@ _DETAILS = {
     '<path d="M110 175V184L102 188L118 194L102 200L118 206L102 212L110 216V226M98 228H122" stroke-width="3"/>',
     "sticky_guide": '<path d="M96 128V214M124 128V214" stroke-width="4"/><path d="M84 86H138" stroke="var(--soft)"/>'
     '<path d="M84 86V56Q88 72 104 72H138"/>',
+    "sloped_guide": '<path d="M84 124L108 224M112 120L136 220" stroke-width="4"/><path class="both" d="M70 116H128"/>',
     "rope_brush": '<path d="M196 96V124M196 98H162M196 106H162M196 114H162M196 122H162"/>',
     "rope_guide": '<path d="M148 86V134" stroke-width="8"/><path d="M160 44Q148 76 153 110T160 168"/>',
     "encoder_scale": '<path d="M20 42V160M14 42H26M14 62H26M14 84H26M14 108H26M14 134H26M14 160H26"/>'
