@@ -11,7 +11,7 @@ from comprope.errors import SimulationError
 from ..estimation.gauss_newton import FitResult, fit_on_full_mesh, gauss_newton
 from ..estimation.initial_guess import best_initial_guess
 from ..estimation.mass_search import search_rope_mass
-from ..estimation.model_score import complexity_penalty, log_score
+from ..estimation.model_score import NoiseLevel, complexity_penalty, log_score
 from ..estimation.weighted_least_squares import LeastSquaresProblem
 from ..hypotheses.effect_hypotheses import Hypothesis, combine
 from ..hypotheses.model_effects import shape_hypotheses
@@ -35,10 +35,14 @@ class CandidateFit(NamedTuple):
         assert self.fitted.hypothesis is not None
         return self.fitted.hypothesis
 
-    def log_score(self, count: int) -> float:
-        """Score of the fit to `count` data."""
-        penalty = complexity_penalty(self.hypothesis, self.screening.alternatives) + self.fitted.prior_cost
-        return log_score(self.fitted.chi_square, count, penalty)
+    @property
+    def penalty(self) -> float:
+        """What its score is charged for its parameters, its choice among others, and the plant's deviations."""
+        return complexity_penalty(self.hypothesis, self.screening.alternatives) + self.fitted.prior_cost
+
+    def log_score(self, noise: NoiseLevel) -> float:
+        """Score of the fit."""
+        return log_score(self.fitted.chi_square, noise, self.penalty)
 
 
 @dataclass(frozen=True)
@@ -60,17 +64,17 @@ def fit_candidates(context: FitContext, screened: Sequence[ScreenedHypothesis]) 
 
     Screening alone does not decide: whichever effect leads is fitted on the full model until the leader is such a fit.
     """
-    baseline, count = context.baseline, len(context.problem.data)
+    baseline = context.baseline
     found = [_from_screening(one, baseline) for one in screened]
-    worthwhile = CANDIDATES.min_improvement * count
+    worthwhile = CANDIDATES.min_improvement * len(context.problem.data)
     least = max(CANDIDATES.min_share * _improvement(found[0], baseline), worthwhile)
     for k, one in enumerate(screened[: CANDIDATES.max_fits]):
         if _improvement(found[k], baseline) > least and _may_win(found[k], baseline, found):
             found[k] = fit_on_full_model(context, one, found)
-    leader = _leader(found, count)
+    leader = _leader(context, found)
     while not found[leader].refined and found[leader].fitted.penalised_chi_square < baseline.penalised_chi_square - worthwhile:
         found[leader] = fit_on_full_model(context, screened[leader], found)
-        leader = _leader(found, count)
+        leader = _leader(context, found)
     if found[leader].refined:
         _fit_indistinguishable(context, screened, found, leader)
     return found
@@ -103,9 +107,9 @@ def best_on_full_mesh(
     """
     if context.problem.coarse == context.full_problem.coarse:
         return list(found)
-    count = len(context.problem.data)
-    top = max((one.log_score(count) for one in found), default=0.0)
-    promising = [one for one in found if one.refined and one.log_score(count) > top - CANDIDATES.close_score]
+    noise = noise_level(context, found)
+    top = max((one.log_score(noise) for one in found), default=0.0)
+    promising = [one for one in found if one.refined and one.log_score(noise) > top - CANDIDATES.close_score]
     known += [(one.fitted, _on_full_mesh(context, one)) for one in promising if _continued(one, known) is None]
     return [_continued(one, known) or one for one in found]
 
@@ -122,6 +126,12 @@ def _on_full_mesh(context: FitContext, one: CandidateFit) -> CandidateFit:
         return one._replace(fitted=fit_on_full_mesh(context.full_problem, one.fitted, context.origin, thorough=True))
     except SimulationError:
         return one
+
+
+def noise_level(context: FitContext, found: Iterable[CandidateFit]) -> NoiseLevel:
+    """The noise as the plant's fit and the fits of effects on the full model tell it."""
+    fits = [context.baseline, *(one.fitted for one in found if one.refined)]
+    return NoiseLevel.of_fits(len(context.problem.data), (one.chi_square for one in fits))
 
 
 def least_chi_square(found: Iterable[CandidateFit], default: float) -> float:
@@ -205,6 +215,7 @@ def _may_win(one: CandidateFit, baseline: FitResult, found: Sequence[CandidateFi
     return at_best < CANDIDATES.near_factor * best
 
 
-def _leader(found: Sequence[CandidateFit], count: int) -> int:
+def _leader(context: FitContext, found: Sequence[CandidateFit]) -> int:
     """Number of the candidate with the highest score."""
-    return max(range(len(found)), key=lambda k: found[k].log_score(count))
+    noise = noise_level(context, found)
+    return max(range(len(found)), key=lambda k: found[k].log_score(noise))

@@ -14,19 +14,20 @@ from numpy.typing import NDArray
 from ..data.campaign import Campaign
 from ..estimation.coarse_to_fine import fit_from_file
 from ..estimation.gauss_newton import FitResult
-from ..estimation.model_score import log_score
+from ..estimation.model_score import NoiseLevel, complexity_penalty, least_noticed, log_score
 from ..estimation.weighted_least_squares import LeastSquaresProblem, build_problem
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
 from ..progress import ProgressCallback, no_progress
-from ..settings import CANDIDATES, SCREENING, VERDICT
+from ..settings import CANDIDATES, SCORE, SCREENING, VERDICT
 from .candidate_fits import (
     CandidateFit,
     FitContext,
     best_on_full_mesh,
     fit_candidates,
     least_chi_square,
+    noise_level,
     refit_from_other_masses,
 )
 from .linear_screening import ScreenedHypothesis, indistinguishable, screen_at_other_masses, screen_hypotheses
@@ -115,50 +116,56 @@ def diagnose(
         report_progress("linear screening at other masses of the rope")
         found = refit_from_other_masses(context, screen_at_other_masses(rough, origin, on_coarse_mesh), found)
         finished = best_on_full_mesh(context, found, on_full_mesh)
-    diagnosis = _assembled(campaign, problem, nominal, baseline, finished)
+    diagnosis = _assembled(context, campaign, nominal, finished)
     if diagnosis.kind == "unknown_effect" and (pair := fit_pair(context, found)):
         found = with_single_fits(context, found, pair)
-        return _assembled(campaign, problem, nominal, baseline, best_on_full_mesh(context, found, on_full_mesh))
+        return _assembled(context, campaign, nominal, best_on_full_mesh(context, found, on_full_mesh))
     return diagnosis
 
 
 def _assembled(
-    campaign: Campaign, problem: LeastSquaresProblem, nominal: Predictions, baseline: FitResult, found: Sequence[CandidateFit]
+    context: FitContext, campaign: Campaign, nominal: Predictions, found: Sequence[CandidateFit]
 ) -> Diagnosis:
     """Diagnosis from candidate fits: probabilities in proportion to the exponential of the scores."""
-    count = len(problem.data)
-    scores = {"adequate": log_score(baseline.chi_square, count, baseline.prior_cost)}
-    scores |= {one.hypothesis.effect: one.log_score(count) for one in found}
-    scores["unknown"] = _unknown_score(baseline, found, count)
+    baseline, noise = context.baseline, noise_level(context, found)
+    scores = {"adequate": log_score(baseline.chi_square, noise, baseline.prior_cost)}
+    scores |= {one.hypothesis.effect: one.log_score(noise) for one in found}
+    scores["unknown"] = _unknown_score(baseline, found, noise)
     top = max(scores.values())
     weights = {name: float(np.exp(value - top)) for name, value in scores.items()}
     probabilities = {name: weight / sum(weights.values()) for name, weight in weights.items()}
     best_first = sorted(found, key=lambda one: -scores[one.hypothesis.effect])
-    ranking = tuple(_candidate(one, scores, probabilities, count) for one in best_first)
+    least = least_chi_square(found, baseline.chi_square)
+    ranking = tuple(_candidate(one, scores, probabilities, _detection_limits(one.screening, least, noise)) for one in best_first)
     verdict, kind = _verdict(probabilities, ranking)
-    return Diagnosis(campaign, problem, nominal, baseline, ranking, probabilities, _indistinguishable_pairs(found), verdict, kind)
+    alike = _indistinguishable_pairs(found)
+    return Diagnosis(campaign, context.full_problem, nominal, baseline, ranking, probabilities, alike, verdict, kind)
 
 
-def _unknown_score(baseline: FitResult, found: Sequence[CandidateFit], count: int) -> float:
+def _unknown_score(baseline: FitResult, found: Sequence[CandidateFit], noise: NoiseLevel) -> float:
     """Score of an effect outside the library.
 
     It is assumed to leave about as much as the best known effect that explains anything, at least `VERDICT.unknown_share` of the
-    excess of chi-square, and to have the prior cost of the same fit.
+    excess of chi-square, and to have the prior cost of the same fit. All that is a guess, so that it is compared with that fit,
+    or with the plant's, by the ratio of their chi-squares only.
     """
-    left, cost = 1.0, baseline.prior_cost
-    known = max(found, key=lambda one: one.log_score(count), default=None)
-    if known and known.log_score(count) > log_score(baseline.chi_square, count, baseline.prior_cost):
-        left, cost = min(known.fitted.chi_square / count, VERDICT.unknown_chi_square), known.fitted.prior_cost
-    excess = max(baseline.chi_square / count - 1.0, 0.0)
-    chi_square = count * max(left, 1.0 + VERDICT.unknown_share * excess)
-    return log_score(chi_square, count, VERDICT.unknown_penalty + min(cost, VERDICT.unknown_prior_cost))
+    left, best = 1.0, baseline
+    known = max(found, key=lambda one: one.log_score(noise), default=None)
+    if known and known.log_score(noise) > log_score(baseline.chi_square, noise, baseline.prior_cost):
+        best = known.fitted
+        left = min(best.chi_square / noise.count, VERDICT.unknown_chi_square)
+    left = max(left, 1.0 + VERDICT.unknown_share * max(baseline.chi_square / noise.count - 1.0, 0.0))
+    gain = 0.5 * SCORE.effective_samples * np.log(best.chi_square / noise.count / left)
+    penalty = VERDICT.unknown_penalty + min(best.prior_cost, VERDICT.unknown_prior_cost)
+    return log_score(best.chi_square, noise, penalty) + float(gain)
 
 
-def _candidate(one: CandidateFit, scores: dict[str, float], probabilities: dict[str, float], count: int) -> Candidate:
+def _candidate(
+    one: CandidateFit, scores: dict[str, float], probabilities: dict[str, float], limits: dict[str, float]
+) -> Candidate:
     """Entry of the ranking."""
-    name, screening = one.hypothesis.effect, one.screening
-    limits = _detection_limits(screening, count)
-    return Candidate(one.fitted, scores[name], probabilities[name], one.refined, screening.distinct_share, limits)
+    name = one.hypothesis.effect
+    return Candidate(one.fitted, scores[name], probabilities[name], one.refined, one.screening.distinct_share, limits)
 
 
 def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) -> tuple[str | None, str]:
@@ -171,9 +178,11 @@ def _verdict(probabilities: dict[str, float], ranking: tuple[Candidate, ...]) ->
     return top.effect, "instrument" if top.is_instrument else "known_effect"
 
 
-def _detection_limits(one: ScreenedHypothesis, count: int) -> dict[str, float]:
-    """Least size of each parameter, by model key, that raises chi-square by `VERDICT.detection_increase` per datum."""
-    sizes = np.sqrt(VERDICT.detection_increase * count) / np.maximum(np.linalg.norm(one.orthogonal_part, axis=0), 1e-300)
+def _detection_limits(one: ScreenedHypothesis, chi_square: float, noise: NoiseLevel) -> dict[str, float]:
+    """Least size of each parameter, by model key, with which the effect would be the verdict, given what the best fit leaves."""
+    cost = complexity_penalty(one.hypothesis, one.alternatives) + VERDICT.detection_margin
+    least = least_noticed(chi_square, noise, cost)
+    sizes = np.sqrt(least) / np.maximum(np.linalg.norm(one.orthogonal_part, axis=0), 1e-300)
     return {
         key: float(size * abs(amount))
         for size, direction in zip(sizes, one.hypothesis.directions, strict=False)

@@ -1,11 +1,17 @@
 """Score of a model: log likelihood, less a penalty for its complexity and the cost of its plant parameters under their priors.
 
-Scores compare chi-squares as ratios, as if a campaign were `SCORE.effective_samples` independent samples with unknown scale:
-the discrepancy of a model is the same in thousands of samples, each of which a plain likelihood would count as evidence.
-With the penalty of about half the logarithm of that number for each parameter it is a BIC (Schwarz 1978).
+What a fit leaves of N whitened data is noise, N s^2, and a discrepancy E s^2 of the model. The noise is another one in each
+datum, so that each is evidence; the discrepancy is the same in thousands of data and counts as n = `SCORE.effective_samples`
+amplitudes of unknown size. The likelihood of chi^2 = s^2 (N + E) is then that of Student's t distribution,
+
+    log L = -n/2 log(1 + E/n):
+
+half of chi^2 / s^2 where noise is all that is left, n/2 log(chi^2) where it is little. The least chi^2 of the fits to be
+compared tells s^2. With the penalty of about half the logarithm of N for each parameter it is a BIC (Schwarz 1978).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from math import exp, log, log1p
 
 import numpy as np
@@ -16,9 +22,32 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS, Direction
 from ..settings import SCORE
 
 
-def log_score(chi_square: float, count: int, penalty: float = 0.0) -> float:
-    """Logarithm of the score of a chi-square of `count` data: -n/2 log(chi^2 / count) less `penalty`, n effective samples."""
-    return -0.5 * SCORE.effective_samples * log(max(chi_square / count, SCORE.adequate)) - penalty
+@dataclass(frozen=True)
+class NoiseLevel:
+    """Number N of whitened data, and the reduced chi-square s^2 that noise alone leaves of them."""
+
+    count: int
+    reduced: float
+
+    @classmethod
+    def of_fits(cls, count: int, chi_squares: Iterable[float]) -> "NoiseLevel":
+        """The least of the fits' reduced chi-squares, as far as it can be noise."""
+        return cls(count, min([SCORE.noise_limit, *(one / count for one in chi_squares)]))
+
+    def discrepancy(self, chi_square: float) -> float:
+        """Discrepancy E in what a fit leaves, in units of the noise of one datum."""
+        return max(chi_square / self.reduced - self.count, 0.0)
+
+
+def log_score(chi_square: float, noise: NoiseLevel, penalty: float = 0.0) -> float:
+    """Logarithm of the score of a fit's chi-square: -n/2 log(1 + E/n) less `penalty`."""
+    return -0.5 * SCORE.effective_samples * log1p(noise.discrepancy(chi_square) / SCORE.effective_samples) - penalty
+
+
+def least_noticed(chi_square: float, noise: NoiseLevel, cost: float) -> float:
+    """Least decrease of a fit's chi-square that raises its log score by `cost`."""
+    discrepancy = SCORE.effective_samples + noise.discrepancy(chi_square)
+    return noise.reduced * discrepancy * (exp(2.0 * cost / SCORE.effective_samples) - 1.0)
 
 
 def complexity_penalty(hypothesis: Hypothesis, alternatives: int) -> float:

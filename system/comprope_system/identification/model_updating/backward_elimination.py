@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..estimation.coarse_to_fine import fit_coarse_to_fine
 from ..estimation.gauss_newton import FitResult
-from ..estimation.model_score import log_score
+from ..estimation.model_score import NoiseLevel, log_score
 from ..hypotheses.effect_hypotheses import Hypothesis
 from ..hypotheses.model_effects import combined_or_none, components_by_effect
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
@@ -56,18 +56,18 @@ def _remove(baseline: BaselineFit, fitted: FitResult, name: str, report_progress
     start = np.concatenate([fitted.coefficients[: len(PLANT_PARAMETERS)], [c for _, own in kept for c in own]])
     # Without any effect it is the fit that the selection has begun with.
     found = baseline.fitted if left is baseline.fitted.hypothesis else _refitted(baseline, left, start)
-    reduced = found.chi_square / max(len(baseline.problem.data), 1)
-    return EffectRemoval(name, found, reduced, _score(baseline, found) >= _score(baseline, fitted))
+    noise = NoiseLevel.of_fits(len(baseline.problem.data), (found.chi_square, fitted.chi_square))
+    return EffectRemoval(name, found, found.chi_square / noise.count, _score(found, noise) >= _score(fitted, noise))
 
 
 def _refitted(baseline: BaselineFit, left: Hypothesis | None, start: Floats) -> FitResult:
     return fit_coarse_to_fine(baseline.problem, left, start, ParameterPoint())
 
 
-def _score(baseline: BaselineFit, fitted: FitResult) -> float:
+def _score(fitted: FitResult, noise: NoiseLevel) -> float:
     """The diagnosis' own score: what the effects explain, less what they cost."""
     groups = components_by_effect(fitted.hypothesis, fitted.effect_coefficients)
     complexity_penalty = sum(
         SCORE.parameter_penalty * (1 + sum(len(part.directions) for part, _ in pairs)) for pairs in groups.values()
     )
-    return log_score(fitted.chi_square, len(baseline.problem.data), complexity_penalty + fitted.prior_cost)
+    return log_score(fitted.chi_square, noise, complexity_penalty + fitted.prior_cost)

@@ -99,7 +99,10 @@ class Verdict:
     likely_probability: float = setting(
         0.02, "1", "probability above which an effect indistinguishable from the verdict is reported", JUDGEMENT
     )
-    detection_increase: float = setting(0.3, "1", "increase of reduced chi-square at the detection limit of an effect", JUDGEMENT)
+    detection_margin: float = setting(
+        7.0, "1", "log score above that of an adequate model, of an effect at its detection limit",
+        f"{DERIVED}: a probability of 0.999, so that noise seldom hides it",
+    )  # fmt: skip
     implausible_deviation: float = setting(
         4.0, "prior standard deviations", "deviation of a plant parameter that is reported as implausible", JUDGEMENT
     )

@@ -150,14 +150,16 @@ class Score:
     """Model score: log likelihood of independent samples, less penalties."""
 
     effective_samples: float = setting(
-        200.0, "1", "independent samples that a campaign counts as; the discrepancy is the same in thousands of samples",
+        200.0, "1", "independent samples that a model's discrepancy counts as; it is the same in thousands of samples",
         "intervals and probabilities: benchmarks/score_campaigns.py --add",
     )  # fmt: skip
     parameter_penalty: float = setting(
-        2.5, "1", "penalty for each parameter of an effect", f"{DERIVED}: about log(effective_samples) / 2, as BIC"
+        4.0, "1", "penalty for each parameter of an effect", f"{DERIVED}: about log(3000 whitened data) / 2, as BIC"
     )
     run_phase_penalty: float = setting(1.0, "1", "penalty for the phase of each run", JUDGEMENT)
-    adequate: float = setting(0.85, "1", "reduced chi-square below which the score no longer rises", JUDGEMENT)
+    noise_limit: float = setting(
+        1.1, "1", "largest reduced chi-square that may be noise alone", f"{DERIVED}: stated noise is right to 5 %"
+    )
     prior_degrees: float = setting(
         4.0, "1", "degrees of freedom of Student's t for plant parameters: data sheets may be wrong by more than usual",
         f"{CAMPAIGNS}, 618",
