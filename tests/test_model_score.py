@@ -7,7 +7,9 @@ import pytest
 
 from comprope_system.identification.comparison.nrmse import channel_error, overall
 from comprope_system.identification.estimation.model_score import (
+    NoiseLevel,
     complexity_penalty,
+    least_noticed,
     log_score,
     penalised_chi_square,
     prior_cost,
@@ -21,12 +23,33 @@ def directions(count: int, prior: float = 1.0, **bounds: float) -> tuple[Directi
     return tuple(Direction(f"x{k}", {}, prior, **bounds) for k in range(count))
 
 
-def test_the_score_is_that_of_two_hundred_samples_of_unknown_scale() -> None:
-    """Halving chi-square gains 100 ln 2, however many samples there are; below 0.85 a datum nothing more is to be gained."""
-    assert log_score(2e4, 1000) == pytest.approx(-100.0 * math.log(20.0), rel=1e-14)
-    assert log_score(1e4, 1000) - log_score(2e4, 1000) == pytest.approx(100.0 * math.log(2.0), rel=1e-12)
-    assert log_score(500.0, 1000) == log_score(850.0, 1000) == pytest.approx(-100.0 * math.log(0.85), rel=1e-14)
-    assert log_score(2e4, 1000, 7.5) == pytest.approx(log_score(2e4, 1000) - 7.5, rel=1e-14)
+NOISE = NoiseLevel(3000, 0.8)
+
+
+def test_where_noise_is_all_that_is_left_the_score_is_the_likelihood() -> None:
+    """Half of chi-square over that of a datum of noise, in each of 3000 data."""
+    gain = log_score(0.8 * 3000.0, NOISE) - log_score(0.8 * 3000.0 + 0.1, NOISE)
+    assert gain == pytest.approx(0.5 * 0.1 / 0.8, rel=1e-3)
+    assert log_score(0.7 * 3000.0, NOISE) == log_score(0.8 * 3000.0, NOISE) == 0.0
+
+
+def test_a_discrepancy_counts_as_two_hundred_amplitudes() -> None:
+    """Halving a chi-square that is mostly discrepancy gains 100 ln 2, however many data there are."""
+    assert log_score(1e9, NOISE) - log_score(2e9, NOISE) == pytest.approx(100.0 * math.log(2.0), rel=1e-4)
+    assert log_score(4e3, NOISE) == pytest.approx(-100.0 * math.log1p((4e3 / 0.8 - 3000.0) / 200.0), rel=1e-14)
+    assert log_score(4e3, NOISE, 7.5) == pytest.approx(log_score(4e3, NOISE) - 7.5, rel=1e-14)
+
+
+def test_the_best_fit_tells_the_noise_as_far_as_it_can_be_noise() -> None:
+    assert NoiseLevel.of_fits(1000, [950.0, 870.0, 4e4]).reduced == 0.87
+    assert NoiseLevel.of_fits(1000, [1300.0, 4e4]).reduced == 1.1
+
+
+@pytest.mark.parametrize("chi_square", [2400.0, 1e4])
+def test_the_least_decrease_that_is_noticed_is_worth_its_cost(chi_square: float) -> None:
+    """Of a model that lacks an effect, beside the best fit, which leaves `chi_square`."""
+    raised = chi_square + least_noticed(chi_square, NOISE, 12.0)
+    assert log_score(chi_square, NOISE) - log_score(raised, NOISE) == pytest.approx(12.0, rel=1e-9)
 
 
 def test_what_was_free_to_choose_has_its_penalty() -> None:
@@ -48,9 +71,9 @@ def test_a_plant_off_its_data_sheet_costs_student_s_t_of_four_degrees_of_freedom
     assert prior_cost(off) == pytest.approx(2.5 * (math.log(2.0) + math.log(1.25)), rel=1e-12)
 
 
-def test_a_cost_lowers_the_score_by_itself_when_it_raises_chi_square() -> None:
-    raised = penalised_chi_square(3e3, 4.0)
-    assert log_score(raised, 1000) == pytest.approx(log_score(3e3, 1000) - 4.0, rel=1e-12)
+def test_a_cost_lowers_the_score_of_a_discrepancy_by_itself_when_it_raises_chi_square() -> None:
+    raised = penalised_chi_square(3e9, 4.0)
+    assert log_score(raised, NOISE) == pytest.approx(log_score(3e9, NOISE) - 4.0, rel=1e-4)
 
 
 @pytest.mark.parametrize(("chi_square", "count", "expected"), [(500.0, 100, 5.0), (50.0, 100, 1.0), (3.0, 0, 3.0)])

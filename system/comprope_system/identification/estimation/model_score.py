@@ -7,7 +7,7 @@ amplitudes of unknown size. The likelihood of chi^2 = s^2 (N + E) is then that o
     log L = -n/2 log(1 + E/n):
 
 half of chi^2 / s^2 where noise is all that is left, n/2 log(chi^2) where it is little. The least chi^2 of the fits to be
-compared tells s^2. With the penalty of about half the logarithm of N for each parameter it is a BIC (Schwarz 1978).
+compared tells s^2. With the penalty of about half the logarithm of n for each parameter it is a BIC (Schwarz 1978).
 """
 
 from collections.abc import Iterable, Sequence
@@ -45,7 +45,7 @@ def log_score(chi_square: float, noise: NoiseLevel, penalty: float = 0.0) -> flo
 
 
 def least_noticed(chi_square: float, noise: NoiseLevel, cost: float) -> float:
-    """Least decrease of a fit's chi-square that raises its log score by `cost`."""
+    """Least increase of chi-square above that of the best fit that lowers the log score by `cost`."""
     discrepancy = SCORE.effective_samples + noise.discrepancy(chi_square)
     return noise.reduced * discrepancy * (exp(2.0 * cost / SCORE.effective_samples) - 1.0)
 
@@ -67,5 +67,5 @@ def prior_cost(coefficients: Sequence[float] | NDArray[np.float64], plant: Seque
 
 
 def penalised_chi_square(chi_square: float, cost: float) -> float:
-    """Chi-square that has without a penalty the score of `chi_square` with the penalty `cost`."""
+    """Chi-square of a discrepancy that has without a penalty the score of `chi_square` with the penalty `cost`."""
     return chi_square * exp(2.0 * cost / SCORE.effective_samples)

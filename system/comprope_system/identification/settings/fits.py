@@ -154,7 +154,7 @@ class Score:
         "intervals and probabilities: benchmarks/score_campaigns.py --add",
     )  # fmt: skip
     parameter_penalty: float = setting(
-        4.0, "1", "penalty for each parameter of an effect", f"{DERIVED}: about log(3000 whitened data) / 2, as BIC"
+        2.5, "1", "penalty for each parameter of an effect", f"{DERIVED}: about log(effective_samples) / 2, as BIC"
     )
     run_phase_penalty: float = setting(1.0, "1", "penalty for the phase of each run", JUDGEMENT)
     noise_limit: float = setting(
