@@ -315,8 +315,8 @@ MUTANTS = [
     *mutants(
         "scores", SCORE,
         ("likelihood_without_half", "-0.5 * SCORE.effective_samples * log", "-SCORE.effective_samples * log", SCORES),
-        ("less_than_noise_rewarded", "max(chi_square / self.reduced - self.count, 0.0)", "chi_square / self.reduced - self.count",
-         SCORES),
+        ("less_than_noise_rewarded", "max(chi_square / self.reduced - self.count, 0.0)",
+         "chi_square / self.reduced - self.count", SCORES),
         ("penalty_rewards", "SCORE.effective_samples) - penalty", "SCORE.effective_samples) + penalty", SCORES),
         ("any_residual_is_noise", "min([SCORE.noise_limit, *(", "min([*(", SCORES),
         ("limit_without_discrepancy", "SCORE.effective_samples + noise.discrepancy(chi_square)", "SCORE.effective_samples", SCORES),
