@@ -319,7 +319,7 @@ MUTANTS = [
          "chi_square / self.reduced - self.count", SCORES),
         ("penalty_rewards", "SCORE.effective_samples) - penalty", "SCORE.effective_samples) + penalty", SCORES),
         ("any_residual_is_noise", "min([SCORE.noise_limit, *(", "min([*(", SCORES),
-        ("limit_without_discrepancy", "SCORE.effective_samples + noise.discrepancy(chi_square)", "SCORE.effective_samples", SCORES),
+        ("limit_without_discrepancy", "samples + noise.discrepancy(chi_square)", "samples", SCORES),
         ("alternatives_for_nothing", " + log(alternatives)", "", SCORES),
         ("run_phases_as_parameters", "len(hypothesis.directions) - phases", "len(hypothesis.directions)", SCORES),
         ("gaussian_tails", "log1p(square / SCORE.prior_degrees)", "square / SCORE.prior_degrees", SCORES),
