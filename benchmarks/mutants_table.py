@@ -324,7 +324,7 @@ MUTANTS = [
         ("run_phases_as_parameters", "len(hypothesis.directions) - phases", "len(hypothesis.directions)", SCORES),
         ("gaussian_tails", "log1p(square / SCORE.prior_degrees)", "square / SCORE.prior_degrees", SCORES),
         ("tails_of_one_less", "0.5 * (SCORE.prior_degrees + 1.0)", "0.5 * SCORE.prior_degrees", SCORES),
-        ("cost_without_two", "exp(2.0 * cost", "exp(cost", SCORES),
+        ("cost_without_two", "chi_square * exp(2.0 * cost", "chi_square * exp(cost", SCORES),
     ),
     *mutants(
         "scores", LEAST_SQUARES,
