@@ -88,7 +88,22 @@ def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("comprope_system.sheave_design.workflow.MASS_RATIOS", np.array([0.4, 1.0, 2.5]))
     monkeypatch.setattr("comprope_system.sheave_design.workflow.TOLERANCE", 0.3)
     changes = [*("--set", "rope.element_length=0.1"), *("--set", "solver.step=0.01"), *("--set", "shaft.height=12")]
-    target = ["--limit", 4, "--floors", 3, "--sway-period", 2, "--sway-amplitude", 5, "--jobs", 1, "--out", tmp_path]
+    target = [
+        "--limit",
+        4,
+        "--floors",
+        3,
+        "--sway-period",
+        2,
+        "--sway-amplitude",
+        5,
+        "--wall",
+        100,
+        "--jobs",
+        1,
+        "--out",
+        tmp_path,
+    ]
     with pytest.raises(SystemExit) as done:
         cli.main([str(one) for one in ("design", "tower50", *changes, *target)])
     assert (done.value.code or 0) == 0
@@ -97,12 +112,15 @@ def test_a_tiny_design_writes_its_page(capsys, tmp_path, monkeypatch) -> None:
     mass, swings = result["mass"], dict(map(tuple, result["full"]))
     assert swings[mass] <= 4e-3
     assert len(result["sensors"]["places"]) == 4
+    trip, sway = result["clearances"]
+    assert (trip["case"], sway["case"]) == ("worst trip", "sway, parked")
+    assert 0.05 < trip["clearance"] < 0.1 and sway["clearance"] < 0.1
     assert {"design.html", "resonance_own.png", "resonance_least.png", "design_mass.png"} <= {
         one.name for one in tmp_path.iterdir()
     }
     again = comprope_system.design(  # from the sweeps' results in the same folder
         "tower50",
-        comprope_system.DesignOptions(0.004, 3, comprope_system.BuildingSway(0.005, 2.0, 60.0)),
+        comprope_system.DesignOptions(0.004, 3, comprope_system.BuildingSway(0.005, 2.0, 60.0), wall=0.1),
         changes={"rope.element_length": 0.1, "solver.step": 0.01, "shaft.height": 12.0},
         checkpoint=tmp_path / "runs.jsonl",
     )

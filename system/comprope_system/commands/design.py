@@ -26,6 +26,7 @@ SET = Annotated[
     list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.radius=0.3. Repeatable.")
 ]
 STOPS = Annotated[bool, typer.Option("--stops", help="Stop the car at every floor too: rise of the sheave, forces, slack.")]
+WALL = Annotated[float | None, typer.Option(metavar="MM", help="Distance of the shaft's wall: clearance of the rope.")]
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for HTML page, figures and result.json.")]
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result to this file as well.")]
 
@@ -47,6 +48,7 @@ class Demands:
     sensors: SENSORS = 4
     changes: SET = None
     stops: STOPS = False
+    wall: WALL = None
 
     @property
     def options(self) -> "comprope_system.DesignOptions":
@@ -55,7 +57,8 @@ class Demands:
         if self.sway_period:
             sway = comprope_system.BuildingSway(1e-3 * self.sway_amplitude, self.sway_period, self.sway_duration)
         sway_limit = None if self.sway_limit is None else 1e-3 * self.sway_limit
-        return comprope_system.DesignOptions(1e-3 * self.limit, self.floors, sway, sway_limit, self.sensors, self.stops)
+        wall = None if self.wall is None else 1e-3 * self.wall
+        return comprope_system.DesignOptions(1e-3 * self.limit, self.floors, sway, sway_limit, self.sensors, self.stops, wall)
 
 
 @dataclass(frozen=True)

@@ -46,6 +46,10 @@ FMU = Annotated[
 ONE_WAY = Annotated[bool, typer.Option("--one-way", help="One-way coupling: no forces of the rope on the drive.")]
 OUT = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the results, one row per communication step.")]
 PLOT = Annotated[Path | None, typer.Option(metavar="FILE.png", help="Plot the trip; .png, .pdf or .svg.")]
+WALL = Annotated[float | None, typer.Option(metavar="MM", help="Distance of a wall: clearance of the rope; implies --direct.")]
+CLEARANCE = Annotated[
+    Path | None, typer.Option(metavar="FILE.png", help="Plot the clearance from --wall, or the model's walls; implies --direct.")
+]
 REPORT = Annotated[
     Path | None,
     typer.Option(metavar="F.html", help="Write an HTML page with an animation of the trip and plots; implies --direct."),
@@ -102,11 +106,18 @@ class RunOptions:
 
 @dataclass(frozen=True)
 class Files:
-    """Output files."""
+    """Output files, and what they are about."""
 
     out: OUT = None
     plot: PLOT = None
     report: REPORT = None
+    clearance: CLEARANCE = None
+    wall: WALL = None
+
+    @property
+    def needs_clearance(self) -> bool:
+        """Whether the clearance is asked for."""
+        return self.clearance is not None or self.wall is not None
 
 
 def simulate(model: MODEL, motion: MotionOptions, stop: StopOptions, options: RunOptions, files: Files) -> None:
@@ -119,6 +130,10 @@ def simulate(model: MODEL, motion: MotionOptions, stop: StopOptions, options: Ru
     empty while the rope's end has passed the sensor. All columns are in SI units.
     """
     require_files(OutputFile(files.out), OutputFile(files.plot, "picture"), OutputFile(files.report, "page"))
+    require_files(OutputFile(files.clearance, "picture"))
+    wall = None if files.wall is None else 1e-3 * files.wall
+    if files.needs_clearance:
+        _require_wall(model, options.changes, wall)
     with progress_display() as progress:
         result = comprope_system.simulate(
             model,
@@ -128,11 +143,25 @@ def simulate(model: MODEL, motion: MotionOptions, stop: StopOptions, options: Ru
             fmu=_fmus(options, files), progress=progress,
         )  # fmt: skip
     finish(result, (files.out, result.to_csv), (files.plot, result.save_plot), (files.report, result.save_html))
+    if files.needs_clearance:
+        typer.echo(result.clearance(wall).summary())
+        if files.clearance:
+            result.save_clearance(files.clearance, wall)
+            typer.echo(f"written {files.clearance}")
+
+
+def _require_wall(model: str, changes: list[str] | None, wall: float | None) -> None:
+    """Raise `InputError` without a wall [m], before a long computation."""
+    from ..simulation.clearance import known_wall
+    from ..simulation.workflow import changed_model
+
+    known_wall(changed_model(model, changes)[0], wall)
 
 
 def _fmus(options: RunOptions, files: Files) -> bool | list[Path]:
     """Whether to simulate with FMUs, and which; raises `InputError` for contradictory options."""
-    direct = options.direct or files.report is not None
+    direct = options.direct or files.report is not None or files.needs_clearance
     if options.fmu and direct:
-        raise InputError("--fmu: an FMU does not output the rope's shape and is not used with --direct or --report")
+        others = "--direct, --report, --wall or --clearance"
+        raise InputError(f"--fmu: an FMU does not output the rope's shape and is not used with {others}")
     return options.fmu or not direct

@@ -29,6 +29,11 @@ def summary(result: Result) -> list[str]:
         f"smallest sheave mass for {1e3 * result['limit']:g} mm: {result['mass']:.1f} kg as sheave.mass "
         f"(reduced model: {result['mass_small']:.1f} kg)",
         *_worst_stops(result),
+        *(
+            f"clearance, {one['case']}: {1e3 * one['clearance']:.0f} mm on the {one['side']}'s side at {one['height']:.1f} m, car at "
+            f"{one['car']:.1f} m"
+            for one in result["clearances"]
+        ),
         f"sensors: {places}; one of them measures at least {100.0 * result['sensors']['share']:.0f} % of any large swing",
     ]
 
@@ -40,6 +45,7 @@ def sections(result: Result, model: RopeModel, chosen: RopeModel, profile: Profi
         Section("resonance", "Resonances", _resonance(result, model, chosen, profile)),
         Section("sensors", "Sensor heights", _sensors(result)),
         *([Section("stops", "Stops", _stops(result))] if result["stops"] else []),
+        *([Section("clearance", "Clearance", _clearances(result))] if result["clearances"] else []),
     ]
 
 
@@ -54,6 +60,18 @@ def _worst_stops(result: Result) -> list[str]:
             f"stop, {kind}: the sheave rises by up to {1e3 * rise:.0f} mm and takes {force:.0f} N, the rope {tension:.0f} N"
         )
     return lines
+
+
+def _clearances(result: Result) -> list[Block]:
+    text = (
+        "Least distance of the rope from the shaft's wall with the smallest sheave; negative beyond the wall. The worst trip by the "
+        "full model; the sway by the reduced model, relative to the building."
+    )
+    rows = [
+        (one["case"], f"{1e3 * one['clearance']:.0f}", one["side"], f"{one['height']:.1f}", f"{one['car']:.1f}")
+        for one in result["clearances"]
+    ]
+    return [text, Table(("case", "clearance [mm]", "side", "at [m]", "car at [m]"), rows)]
 
 
 def _stops(result: Result) -> list[Block]:

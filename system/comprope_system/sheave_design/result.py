@@ -25,7 +25,8 @@ class DesignResult(Result):
     the worst trip and the worst parked floor by mass, `full_model_runs` pairs of mass [kg] and swing [m], `sensors` the heights
     [m] on each side and the share of a large swing that they see. `stops`, if asked for, has for each kind of stop and floor the
     `speed` [m/s], the sheave's `rise` [m], its largest `sheave_force` [N], `peak_tension` of the rope [N] and `slack_duration`
-    [s]. `model` is the model as given, `new_model` has the new sheave.
+    [s]. `clearances`, if a wall is given, have the least `clearance` [m] of each `case`, and where it is.
+    `model` is the model as given, `new_model` has the new sheave.
     """
 
     settings: Mapping[str, Any]
@@ -38,6 +39,7 @@ class DesignResult(Result):
     model: RopeModel
     new_model: RopeModel
     profile: Profile
+    clearances: tuple[dict[str, Any], ...] = ()
 
     def headline(self) -> str:
         """Smallest sheave mass, and the limit of the swing."""
@@ -52,7 +54,7 @@ class DesignResult(Result):
         return {
             **self.settings, "own_mass": self.model.sheave.mass, "mass_small": self.reduced_model_mass, "mass": self.sheave_mass,
             "scanned": list(self.scanned), "full": list(self.full_model_runs), "sensors": dict(self.sensors),
-            "stops": list(self.stops),
+            "stops": list(self.stops), "clearances": list(self.clearances),
         }  # fmt: skip
 
     def to_dataframe(self) -> pd.DataFrame:

@@ -19,9 +19,11 @@ from ..parallel.sweep import sweep, values
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model, require_still_building
 from ..presets.overrides import Changes
 from ..reduced_model.swing import SIDES, observation_time
+from ..simulation.clearance import known_wall
 from ..studies.design import TOLERANCE
 from ..tuning.task import reduced_model_of
 from .building_sway import BuildingSway, parked_departures
+from .clearance_cases import clearances
 from .result import DesignResult
 from .sensor_placement import choose_sensors
 from .stop_cases import stop_case, stop_cases
@@ -40,7 +42,8 @@ class DesignOptions:
 
     `swing_limit` [m] is the largest swing during and after a trip, `floors` the number of evenly spaced floors between which all
     trips count, `sway` that of the building, `sway_limit` [m] the largest swing in it, None if it is only computed; `sensors` is
-    the number of sensors to place. With `stops` the new sheave goes through stops at every floor as well.
+    the number of sensors to place. With `stops` the new sheave goes through stops at every floor as well. With the distance of the
+    shaft's `wall` [m] the clearance is computed.
     """
 
     swing_limit: float = 0.010
@@ -49,6 +52,7 @@ class DesignOptions:
     sway_limit: float | None = None
     sensors: int = 4
     stops: bool = False
+    wall: float | None = None
 
 
 @dataclass(frozen=True)
@@ -83,6 +87,8 @@ def design(
     `InputError` for bad input or a limit that no sheave keeps.
     """
     options = options or DesignOptions()
+    if options.wall is not None:
+        known_wall(read_model(model, changes), options.wall)
     given = require_still_building(read_model(model, changes), "the design").model_copy(update={"sensors": ()})
     height, sway = given.shaft.height, options.sway
     tables = {"shaft": {"height": height}, "trip": {"start_position": 0.0, "destination": height}}
@@ -106,7 +112,11 @@ def design(
         "floors": options.floors, "sway": base["sway"],
     }  # fmt: skip
     sensors = _sensors(new_model, profile, options)
-    return DesignResult(settings, least, mass, tuple(scanned), tuple(runs), sensors, tuple(stops), given, new_model, profile)
+    worst = min(scanned, key=lambda one: abs(one["mass"] - least))
+    beside = clearances(new_model, profile, worst, sway, options.wall) if options.wall is not None else []
+    return DesignResult(
+        settings, least, mass, tuple(scanned), tuple(runs), sensors, tuple(stops), given, new_model, profile, tuple(beside)
+    )
 
 
 def _millimetres(length: float) -> float:

@@ -6,12 +6,15 @@ from typing import Any
 
 import pandas as pd
 
+from comprope.atomic_files import atomic_write
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 
+from ..building_motion.motion import BuildingMotion
 from ..report.json_output import plain
 from ..report.result import Result
 from .animation.frames import Recording
+from .clearance import Clearance, clearance_of, known_wall
 from .measured_run import Run
 from .trip_simulation import Simulated, summary
 
@@ -22,7 +25,8 @@ class SimulationResult(Result, Simulated):
 
     `table` has a column `time` [s] and those that `columns` describes with unit and meaning; cells are NaN where a rope end has
     passed the sensor. `sensors` are the names of the model's sensors, `model` is the model with its changes, `measured` the run
-    that the car followed. `remarks` are about the motion. `recording` holds the rope's shapes, which FMUs do not show.
+    that the car followed. `remarks` are about the motion. `recording` holds the rope's shapes, which FMUs do not show. `building`
+    is the motion of the building, None if it is at rest.
     """
 
     model: RopeModel
@@ -30,6 +34,7 @@ class SimulationResult(Result, Simulated):
     measured: Run | None
     recording: Recording | None
     remarks: tuple[str, ...] = ()
+    building: BuildingMotion | None = None
 
     def headline(self) -> str:
         """Start and end of the car's motion, and the simulated time."""
@@ -57,6 +62,21 @@ class SimulationResult(Result, Simulated):
     def to_dataframe(self) -> pd.DataFrame:
         """The table (n, columns): one row for each communication step."""
         return self.table
+
+    def clearance(self, wall: float | None = None) -> Clearance:
+        """Clearance from a wall at an outward distance [m] of both sides, by default that of the model's effect `shaft_walls`.
+
+        Raises `InputError` without a wall, or if the rope was an FMU, which does not output its shape.
+        """
+        if self.recording is None:
+            raise InputError("fmu = True: the clearance needs the rope's shape, which an FMU does not output; False is accepted")
+        return clearance_of(self.recording, self.table, self.model, known_wall(self.model, wall), self.building)
+
+    def save_clearance(self, path: str | Path, wall: float | None = None) -> None:
+        """Write the map of the clearance as .png, .pdf or .svg, completely or not at all."""
+        figure = self.clearance(wall).plot()
+        with atomic_write(path) as temporary:
+            figure.savefig(temporary, dpi=150)
 
     def save_html(self, path: str | Path) -> None:
         """Write an HTML page with an animation; raises `InputError` if the rope was an FMU, which does not output its shape."""

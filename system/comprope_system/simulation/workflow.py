@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -35,6 +35,7 @@ from .trip_simulation import simulate as simulate_trip
 
 BEYOND = 1e5  # m, destination of a car that does not stop by itself
 BRAKED = {False: "", True: ": the hoist ropes slip on the traction sheave"}
+FIXED = ("shaft_walls", "rope_guides")  # effects of what is fixed to the building at its height
 SETTLE = 8.0  # s simulated after the trip, while the rope vibrates freely
 
 
@@ -81,7 +82,7 @@ def simulate(
     """
     motion = motion or CarMotion()
     fmus = None if fmu is False else NamedFmus.read(() if fmu is True else fmu)
-    rope_model, drive_changes = _model(model, changes)
+    rope_model, drive_changes = changed_model(model, changes)
     names, measured = [sensor.name for sensor in rope_model.sensors], None
     if motion.measured:
         measured = _measured(motion, rope_model, names)
@@ -107,8 +108,9 @@ def simulate(
         simulated, remarks = relative_to_building(simulated, rope_model, building.motion), (*remarks, *building.remarks)
     recording = recorder.recording if recorder else None
     return SimulationResult(
-        simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording, remarks
-    )
+        simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording, remarks,
+        building.motion if building else None,
+    )  # fmt: skip
 
 
 def _measured(motion: CarMotion, model: RopeModel, sensors: Sequence[str]) -> Run:
@@ -125,9 +127,12 @@ def _moving_building(model: RopeModel, measured: Run | None, timing: Timing) -> 
     building = building_record(model)
     if building and measured and measured.lateral:
         raise InputError("building: not accepted with a run in which lateral displacements of the rope's ends are measured")
-    if building:
-        building.require_duration(timing.begin + timing.duration)
-    return building
+    if building is None:
+        return None
+    building.require_duration(timing.begin + timing.duration)
+    still = [name for name in FIXED if getattr(model.effects, name, None) is not None]
+    remarks = tuple(f"effects.{name}: stands still with the base, while the building moves" for name in still)
+    return replace(building, remarks=(*building.remarks, *remarks))
 
 
 def _advance(progress: Progress, recorder: FrameRecorder | None, before: int, count: int, total: int) -> None:
@@ -145,7 +150,7 @@ def _rope(elevator: Elevator) -> CompensationRope:
     return rope.simulator.rope
 
 
-def _model(model: ModelInput, changes: Changes | None) -> tuple[RopeModel, dict[str, dict[str, Any]]]:
+def changed_model(model: ModelInput, changes: Changes | None) -> tuple[RopeModel, dict[str, dict[str, Any]]]:
     """The model with its changes, and the changes that concern the drive, by table and key."""
     own, drive = {}, dict[str, dict[str, Any]]()
     wanted, source = by_key(changes)
