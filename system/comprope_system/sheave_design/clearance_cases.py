@@ -30,10 +30,11 @@ def clearances(
     reduced, car = reduced_model_of(model), float(worst["sway_car"])
     moved = parked_departures(reduced, sway, car)
     side = max(SIDES, key=lambda one: float(moved[one].max()))
+    left = wall - float(moved[side].max())
     place = READ_POSITIONS[int(np.argmax(moved[side]))] * float(reduced.length(side, np.array([car]))[0]) - reduced.pit
     swayed = {
         "case": "sway, parked",
-        "clearance": wall - float(moved[side].max()),
+        "clearance": left,
         "side": side,
         "height": float(place),
         "car": car,

@@ -42,8 +42,8 @@ class DesignOptions:
 
     `swing_limit` [m] is the largest swing during and after a trip, `floors` the number of evenly spaced floors between which all
     trips count, `sway` that of the building, `sway_limit` [m] the largest swing in it, None if it is only computed; `sensors` is
-    the number of sensors to place. With `stops` the new sheave goes through stops at every floor as well. With the distance of the
-    shaft's `wall` [m] the clearance is computed.
+    the number of sensors to place. With `stops` the new sheave goes through stops at every floor as well. With the distance of
+    the shaft's `wall` [m] the clearance is computed.
     """
 
     swing_limit: float = 0.010
