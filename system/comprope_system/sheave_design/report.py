@@ -30,8 +30,8 @@ def summary(result: Result) -> list[str]:
         f"(reduced model: {result['mass_small']:.1f} kg)",
         *_worst_stops(result),
         *(
-            f"clearance, {one['case']}: {1e3 * one['clearance']:.0f} mm on the {one['side']}'s side at {one['height']:.1f} m, car "
-            f"at {one['car']:.1f} m"
+            f"clearance, {one['case']}: {1e3 * one['clearance']:.0f} mm on the {one['side']}'s side at {one['height']:.1f} m, "
+            f"car at {one['car']:.1f} m"
             for one in result["clearances"]
         ),
         f"sensors: {places}; one of them measures at least {100.0 * result['sensors']['share']:.0f} % of any large swing",
