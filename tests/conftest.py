@@ -8,6 +8,21 @@ import pytest
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
+# The files that take longest. They come first, so that no worker is left with one of them when the others are done.
+LONG = (
+    "test_residual_force", "test_raw_logs", "test_own_effect", "test_identify_instruments", "test_identify_nuisances",
+    "test_identify_far", "test_fmi_importers", "test_native", "test_plant", "test_rope_kernels", "test_public_interface",
+    "test_identify_story", "test_identify_coarse", "test_packaging", "test_fmi_package", "test_fmi_tools", "test_tune", "test_design",
+    "test_app_browser", "test_command_running",
+)  # fmt: skip
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put the tests of the files in LONG first."""
+    order = {name: place for place, name in enumerate(LONG)}
+    items.sort(key=lambda item: order.get(item.path.stem, len(LONG)))
+
+
 @pytest.fixture(scope="session", autouse=True)
 def compiled_kernels(request: pytest.FixtureRequest) -> None:
     """Where several workers share a run, let them compile the kernels together before the tests, each once.
