@@ -12,8 +12,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 LONG = (
     "test_residual_force", "test_raw_logs", "test_own_effect", "test_identify_instruments", "test_identify_nuisances",
     "test_identify_far", "test_fmi_importers", "test_native", "test_plant", "test_rope_kernels", "test_public_interface",
-    "test_identify_story", "test_identify_coarse", "test_packaging", "test_fmi_package", "test_fmi_tools", "test_tune", "test_design",
-    "test_app_browser", "test_command_running",
+    "test_identify_story", "test_identify_coarse", "test_packaging", "test_fmi_package", "test_fmi_tools", "test_tune",
+    "test_design", "test_app_browser", "test_command_running",
 )  # fmt: skip
 
 
