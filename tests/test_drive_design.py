@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from comprope.drive.hoist_dynamics import state_space
+from comprope.drive.control.hoist_dynamics import state_space
+from comprope.drive.control.stability_margins import open_loop
 from comprope.drive.kernels import design, hoist, matrices
 from comprope.drive.kernels.arguments import MATRIX, ROW, Design, Inputs, Parameters
 from comprope.drive.kernels.checks import GAIN_CHECK
@@ -15,7 +16,6 @@ from comprope.drive.kernels.entry_points import compiled
 from comprope.drive.kernels.parameter_vector import NAMES, vector
 from comprope.drive.parameters import Drive, FirstTrip, Plant, Servo, Shaft
 from comprope.drive.simulator import empty_design, empty_workspace, gain_problems, python_control_design
-from comprope.drive.stability_margins import open_loop
 from comprope.drive.status import MESSAGES
 from comprope.kernels.kernel_linking import uncompiled
 from comprope.kernels.status import SUCCESS, sentence

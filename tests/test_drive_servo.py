@@ -4,7 +4,10 @@ import control
 import numpy as np
 import pytest
 
-from comprope.drive.hoist_dynamics import lumped_hoist, moving_mass, state_space
+from comprope.drive.control.hoist_dynamics import lumped_hoist, moving_mass, state_space
+from comprope.drive.control.scheduled_plant import scheduled_plant
+from comprope.drive.control.servo_control import continuous_speed_control, sampled_speed_control
+from comprope.drive.control.stability_margins import margins, open_loop, unstable_positions
 from comprope.drive.kernels import design, hoist, matrices, stepping
 from comprope.drive.kernels.arguments import (
     INPUT_GAIN,
@@ -23,10 +26,7 @@ from comprope.drive.kernels.arguments import (
 )
 from comprope.drive.kernels.parameter_vector import vector
 from comprope.drive.parameters import Drive, Plant, Servo, Shaft
-from comprope.drive.scheduled_plant import scheduled_plant
-from comprope.drive.servo_control import continuous_speed_control, sampled_speed_control
 from comprope.drive.simulator import python_control_design
-from comprope.drive.stability_margins import margins, open_loop, unstable_positions
 from comprope.kernels.kernel_linking import uncompiled
 
 DRIVE = Drive()

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
+from comprope.drive.control.hoist_dynamics import INPUTS, state_space
+from comprope.drive.control.scheduled_plant import scheduled_plant
+from comprope.drive.control.servo_control import design_servo, sampled_speed_control
 from comprope.drive.cosimulation import create, drive_from_parameters, interface
-from comprope.drive.hoist_dynamics import INPUTS, state_space
 from comprope.drive.parameters import Drive, FirstTrip, Servo
-from comprope.drive.scheduled_plant import scheduled_plant
-from comprope.drive.servo_control import design_servo, sampled_speed_control
 from comprope.drive.simulator import DriveSimulator
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError, SimulationError

@@ -7,6 +7,9 @@ import numpy as np
 
 from ..errors import InputError
 from ..kernels.status import MESSAGE_VALUES, SUCCESS, require_success, sentence
+from .control.scheduled_plant import scheduled_plant
+from .control.servo_control import design_servo
+from .control.stability_margins import unstable_positions
 from .kernels.arguments import (
     CLOCK,
     FEEDFORWARD,
@@ -31,9 +34,6 @@ from .kernels.checks import INPUT_CHECKS, START_CHECK, TORQUE_CHECK
 from .kernels.entry_points import compiled
 from .kernels.parameter_vector import vector
 from .parameters import Drive
-from .scheduled_plant import scheduled_plant
-from .servo_control import design_servo
-from .stability_margins import unstable_positions
 from .status import MESSAGES, UNSTABLE
 from .variables import FLAGS, INPUTS, REAL_OUTPUTS
 

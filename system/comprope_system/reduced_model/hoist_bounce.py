@@ -16,9 +16,9 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from comprope.drive.hoist_dynamics import lumped_hoist
+from comprope.drive.control.hoist_dynamics import lumped_hoist
+from comprope.drive.control.stability_margins import open_loop
 from comprope.drive.parameters import Drive
-from comprope.drive.stability_margins import open_loop
 
 from .sampled_motion import SampledMotion
 

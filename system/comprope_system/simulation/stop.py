@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import cos, exp, pi, sin
 from typing import Literal
 
-from comprope.drive.hoist_dynamics import lumped_hoist, moving_mass
+from comprope.drive.control.hoist_dynamics import lumped_hoist, moving_mass
 from comprope.drive.parameters import Drive
 from comprope.errors import InputError
 

@@ -6,8 +6,8 @@ from itertools import product
 
 import numpy as np
 
+from comprope.drive.control.stability_margins import Margins, margins, unstable_positions
 from comprope.drive.parameters import Drive, Servo
-from comprope.drive.stability_margins import Margins, margins, unstable_positions
 
 from ...reduced_model.hoist_bounce import hoist_bounce
 

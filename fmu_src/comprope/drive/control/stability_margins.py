@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import control
 import numpy as np
 
+from ..kernels.arguments import T_C, T_W, V_C, V_S, V_W, S
+from ..parameters import Drive
 from .hoist_dynamics import state_space
-from .kernels.arguments import T_C, T_W, V_C, V_S, V_W, S
-from .parameters import Drive
 from .servo_control import sampled_speed_control
 
 _FREQUENCIES = 4000  # from 0.01 rad/s to half the sampling rate: 0.3 % apart, finer than the ropes' resonances

@@ -10,9 +10,9 @@ from functools import lru_cache
 import control
 import numpy as np
 
+from ..kernels.design import RATIO_STEP
+from ..parameters import Drive
 from .hoist_dynamics import state_space
-from .kernels.design import RATIO_STEP
-from .parameters import Drive
 
 
 @dataclass(frozen=True)

@@ -28,8 +28,8 @@ from dataclasses import dataclass
 import control
 import numpy as np
 
-from .kernels.arguments import T_C, T_W, V_C, V_S, V_W, X_C, X_W, S
-from .parameters import Drive
+from ..kernels.arguments import T_C, T_W, V_C, V_S, V_W, X_C, X_W, S
+from ..parameters import Drive
 
 STATES = ("s", "x_c", "x_w", "v_s", "v_c", "v_w", "T_c", "T_w")
 INPUTS = ("f", "F_c", "F_w")

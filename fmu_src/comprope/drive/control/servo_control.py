@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import control
 
+from ..parameters import Drive
 from .hoist_dynamics import moving_mass
-from .parameters import Drive
 
 
 @dataclass(frozen=True)
