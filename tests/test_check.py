@@ -99,6 +99,7 @@ REMARKS = [
     ({"turning": lambda v: np.interp(TIME - 0.3, TIME, v)}, "turning: 0.3 s later than the car's motion"),
     ({"turning": lambda v: table()["axle"].to_numpy(), "axle": lambda v: table()["turning"].to_numpy()}, "probably swapped"),
     ({"car_low": lambda v: 1e-3 * v}, "check its unit"),
+    ({"car_low": lambda v: 0.1 * v}, 'about 0.1 times those of the other lasers: if it is in cm, write unit'),
     ({"cw_low": lambda v: table()["car_low"].to_numpy(), "car_low": lambda v: table()["cw_low"].to_numpy()},
      "car_low: does not see the rope where sensor car_low would, but where sensor cw_low would"),
 ]

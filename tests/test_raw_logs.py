@@ -18,7 +18,7 @@ from comprope_system.measurements.run_table import read_run_table
 from comprope_system.measurements.units import is_unit, split_unit, unit_named
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
-from raw_log_variants import FURTHER, READING, blind_and_broken, stated_wrongly
+from raw_log_variants import FURTHER, LOGGERS, READING, blind_and_broken, stated_wrongly
 
 HEIGHT = 50.0  # m
 LASERS = ("cw_low", "cw_mid", "car_low")
@@ -44,7 +44,7 @@ def plain() -> pd.DataFrame:
 
 PLAIN = plain()
 
-VARIANTS = [one for group in (*READING, *FURTHER) for one in group(PLAIN)]
+VARIANTS = [one for group in (*READING, *FURTHER, *LOGGERS) for one in group(PLAIN)]
 RIGHT = {"semicolon, decimal point", "tab, decimal comma", "quoted decimal commas between commas", "CR", "footer of statistics",
          "header in a comment", "header and units repeated", "thousands separated", "encoding utf-16-le", "encoding latin-1",
          "time: ms in brackets", "time: over midnight", "time: days of Excel", "time: comma before milliseconds, between commas",
@@ -61,7 +61,15 @@ RIGHT = {"semicolon, decimal point", "tab, decimal comma", "quoted decimal comma
          "time: time to landing beside it", "time: door time beside it", "time: rate in kS/s above",
          "time: rate with the unit in its name", "time: interval with the unit in its name",
          "netCDF with scaled whole numbers", "Parquet with the time as index", "Parquet with durations",
-         "Excel with a sheet of notes first", "Excel with times of day", "TDMS with channels of other lengths"}  # fmt: skip
+         "Excel with a sheet of notes first", "Excel with times of day", "TDMS with channels of other lengths",
+         "catman ASCII", "DEWESoft", "DIAdem", "Graphtec", "FAMOS, tabs", "Keyence", "settings beside the rows",
+         "labels above the names",
+         "times before the trigger", "counterweight only", "numpy.savetxt", "Markdown", "line breaks in quoted names",
+         "French thousands",
+         "unit after a comma", "unit after an underscore", "years of two digits over midnight", "American dates over midnight",
+         "the end of summer time, with zones", "durations in days", "a time beside each channel",
+         "a slower clock beside one channel",
+         "Excel with a table of limits beside", "Excel with date and time of day"}  # fmt: skip
 
 
 def read(folder: Path, variant):

@@ -14,9 +14,9 @@ from comprope_system.measurements.run_table import UNITS
 
 # What one unit is in SI units: a turn is 2 pi rad, a degree the 360th part of it, a minute 60 s.
 SIZES = {
-    "m": 1.0, "cm": 0.01, "mm": 0.001, "um": 0.000001,
+    "m": 1.0, "cm": 0.01, "mm": 0.001, "um": 0.000001, "in": 0.0254,
     "rad/s": 1.0, "deg/s": 2.0 * math.pi / 360.0, "rpm": 2.0 * math.pi / 60.0, "1/min": 2.0 * math.pi / 60.0,
-    "N": 1.0, "kN": 1000.0,
+    "N": 1.0, "kN": 1000.0, "kgf": 9.80665, "lbf": 0.45359237 * 9.80665,
 }  # fmt: skip
 
 
@@ -27,8 +27,8 @@ def test_a_unit_is_as_large_as_it_is_defined(quantity: str, unit: str) -> None:
 
 
 def test_every_quantity_has_units_of_its_own_kind() -> None:
-    kinds = {unit: kind for kind, units in enumerate((("m", "cm", "mm", "um"), ("rad/s", "deg/s", "rpm", "1/min"), ("N", "kN")))
-             for unit in units}  # fmt: skip
+    alike = (("m", "cm", "mm", "um", "in"), ("rad/s", "deg/s", "rpm", "1/min"), ("N", "kN", "kgf", "lbf"))
+    kinds = {unit: kind for kind, units in enumerate(alike) for unit in units}
     expected = {"displacement": 0, "velocity": 1, "force": 2, "tension": 2}
     for quantity, units in UNITS.items():
         assert {kinds[unit] for unit in units} == {expected[quantity.rsplit("_", 1)[-1]]}, quantity

@@ -5,7 +5,9 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 START = datetime(2026, 11, 2, 9, 12, 1, 123000)  # of the record
 Write = Callable[[Path], None]
@@ -22,6 +24,7 @@ class Variant:
     run_extra: str = ""
     asked: str = ""  # the channel of which campaign.toml leaves out samples
     truth: pd.DataFrame | None = None  # what the file says, where that is not the plain table
+    motion: NDArray[np.float64] | None = None  # true positions (n,) of the car [m] behind a noisy signal
 
 
 def csv(table: pd.DataFrame, **options: object) -> str:

@@ -36,6 +36,7 @@ SAYS_NOTHING = frozenset(
     ]
 )  # fmt: skip
 FOLLOWS = 0.95  # correlation with the car's speed of a channel that is the sheave's angular velocity
+BY_SIZE = "its unit by its size"  # why a unit was taken that no file states
 METRES = {"lateral_displacement": 0.5, "sheave_displacement": 5e-3}  # largest displacements that are rather metres than mm
 
 
@@ -99,6 +100,11 @@ def role_of(name: str, evidence: Sequence[Evidence], sensors: Sequence[Sensor]) 
     return Role(None, certainty=GUESS, why="its name says nothing that is known here")
 
 
+def reach(value: Floats) -> float:
+    """How far readings (n,) lie from their median, single ones aside; 0 without numbers."""
+    return float(np.nanpercentile(np.abs(value - np.nanmedian(value)), 99.0)) if np.isfinite(value).any() else 0.0
+
+
 def says_nothing(name: str) -> bool:
     """Whether a name is one that many columns have, such as "Value" and "Channel 3"."""
     return plain_name(name).rstrip("0123456789").strip("_") in SAYS_NOTHING
@@ -146,9 +152,8 @@ def _with_length(role: Role, unit: str | None, known: Sequence[Evidence]) -> Rol
     """The role with the unit that the file states, or with one by its size."""
     if unit is not None:
         return replace(role, unit=unit, certainty=SURE if role.certainty == LIKELY else role.certainty, why="by name and unit")
-    reach = max(float(np.nanpercentile(np.abs(one.value - np.nanmedian(one.value)), 99.0)) for one in known)
-    guess = "m" if reach < METRES[str(role.quantity)] else "mm"
-    return replace(role, unit=guess, why=f"{role.why}; its unit by its size")
+    guess = "m" if max(reach(one.value) for one in known) < METRES[str(role.quantity)] else "mm"
+    return replace(role, unit=guess, why=f"{role.why}; {BY_SIZE}")
 
 
 def _sensor(plain: str, sensors: Sequence[Sensor]) -> Sensor | None:

@@ -1,6 +1,6 @@
 """The public function `comprope_system.new`."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from comprope.atomic_files import atomic_write
@@ -11,8 +11,8 @@ from ..identification.workflow import check
 from ..measurements.files.raw_table import printable
 from ..measurements.files.reader import require_regular_file
 from .campaign_text import campaign_text
-from .column_matching import roles
-from .column_roles import Role
+from .column_matching import own_name, roles
+from .column_roles import BY_SIZE, Role, reach
 from .corrections import Corrections, corrected, require_runs
 from .model_choice import choose_model, copied
 from .questions import Ask, asked_changes, asked_role, asked_start, without_guess
@@ -66,7 +66,7 @@ def new(
     tables = _tables(surveyed) | {"plant": {key: {"relative": one} for key, one in chosen.tolerances.items()}}
     with atomic_write(path) as temporary:
         temporary.write_text(campaign_text(folder.resolve().name, chosen.file, tables, channels, runs), "utf-8")
-    remarks += _remarks(surveyed)
+    remarks += [*_remarks(surveyed), *_assumed_units(used, surveyed)]
     if not ask and not known.changes:
         remarks.append(f"the sheave of the model, {loaded.sheave.mass:g} kg, is taken in every run; {SHEAVE_OF_RUN}")
     parts = {run.file: run.group.others for run in surveyed}
@@ -87,6 +87,18 @@ def _remarks(runs: Sequence[SurveyedRun]) -> list[str]:
     need = f"references at rest need {SHORT_REST:g} s"
     rests = [f"{run.file}: {run.rest:.2g} s at rest before the trip; {need}" for run in short]
     return [*rests, *(sentence for run in runs for sentence in run.unread)]
+
+
+def _assumed_units(used: Mapping[str, Role], runs: Sequence[SurveyedRun]) -> Iterator[str]:
+    """A sentence about channels whose unit no file states, with the largest motions in the unit that is taken."""
+    assumed = {name: role.unit for name, role in used.items() if role.why.endswith(BY_SIZE)}
+    if assumed:
+        sizes = {
+            name: max((reach(run.columns[own].samples.values) for run in runs if (own := own_name(run, name))), default=0.0)
+            for name in assumed
+        }
+        shown = ", ".join(f"{printable(name)} moves by {sizes[name]:.2g} {unit}" for name, unit in assumed.items())
+        yield f"no file states a unit, and by the size of the readings {shown}; if it is another, correct unit under [[channels]]"
 
 
 def _answers(run: SurveyedRun, model: RopeModel, ask: Ask | None, stated: Mapping[str, Mapping[str, float]]) -> Answers:

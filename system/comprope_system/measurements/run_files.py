@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from comprope.errors import InputError
 
 from .campaign_file import Channel, Reading, RunSpec
-from .columns.column_names import clock_columns, find_column
+from .columns.column_names import clock_columns, find_column, unnamed_clocks
 from .columns.readings import Rules, numbers_of, unit_problem
 from .columns.signal_faults import CHANNEL_RULES
 from .columns.split_clock import with_joined_clock
@@ -66,6 +66,11 @@ class RunFiles:
             found = with_joined_clock(read_raw_table(self.folder / file, self.stated, self.within))
             self._tables[file] = found
             self._remark(file, *found.remarks)
+            for one in unnamed_clocks(found):
+                self._remark(
+                    file,
+                    f"{one.name} counts evenly, as a clock does, but is not named as one; no column is read at its times",
+                )
         return self._tables[file]
 
     def file_of(self, key: str) -> str:
@@ -140,6 +145,8 @@ class RunFiles:
             found = time_axis(first, table, self.stated)
         except InputError:
             raise InputError(sentence) from None
+        if others := unnamed_clocks(table):
+            raise InputError(f"{sentence}; {', '.join(one.name for one in (first, *others))} count evenly, as clocks do")
         return TimeAxis(found.seconds, found.origin, found.kind, found.unit, found.sure, f"{first.name} is taken as the time")
 
     def _on_clock_of_run(self, axis: TimeAxis, file: str, name: str) -> Floats:

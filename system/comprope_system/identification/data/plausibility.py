@@ -15,6 +15,7 @@ from ...measurements.units import UNITS
 from ..settings import PLAUSIBILITY
 from .car_direction import agreement, is_other, regression
 from .channel_noise import spread_of_steps
+from .channel_units import other_units
 from .runs import Channel, Run
 
 Floats = NDArray[np.float64]
@@ -24,7 +25,7 @@ SAMPLES_OF_DELAY = 5000  # that determine a delay; a longer record is thinned to
 
 def remarks_on(run: Run, model: RopeModel, channels: Mapping[str, Channel]) -> list[str]:
     """Sentences about channels that contradict the motion of the car, their own stated noise or the size of an elevator."""
-    found = [*_directions(run, model, channels)]
+    found = [*_directions(run, model, channels), *other_units(run, channels)]
     for column, channel in channels.items():
         value = run.values[column]
         if np.isfinite(value).sum() >= PLAUSIBILITY.min_samples and np.nanmin(value) < np.nanmax(value):

@@ -16,10 +16,12 @@ from ..units import split_unit
 
 LOOKED_AT = 200  # samples that tell whether a column counts time
 RARELY = 0.05  # share of steps that go back, or on, up to which a column is a clock, or none
+EVEN = 0.1  # of the mean step: standard deviation of the steps of an even clock
 FEWEST = 5  # numbers that tell
 TIME_NAMES = frozenset(
     [
-        "time", "t", "timestamp", "time_stamp", "datetime", "date_time", "date/time", "zeit", "zeitstempel", "uhrzeit",
+        "time", "t", "timestamp", "time_stamp", "datetime", "date_time", "date/time", "date&time", "zeit", "zeitstempel",
+        "uhrzeit",
         "temps", "tempo", "x_value", "xvalue", "elapsed", "elapsed_time", "relative_time", "rel_time", "time_rel", "timer",
         "clock", "utc", "sec", "secs", "seconds", "ms", "milliseconds",
     ]
@@ -76,7 +78,7 @@ def is_time_name(name: str) -> bool:
     """Whether a column of this name holds times: "Time [s]", "t", "time_lasers", "Zeit 2"."""
     plain = plain_name(re.sub(r"\s*\(\d+\)$", "", name).rpartition("/")[2] or name)
     first = plain.split("_")[0]
-    return plain in TIME_NAMES or first in ("time", "zeit", "timestamp") or plain.endswith(("_time", "_zeit", "_timestamp"))
+    return plain in TIME_NAMES or first in ("time", "zeit", "timestamp", "t") or plain.endswith(("_time", "_zeit", "_timestamp"))
 
 
 def clock_columns(table: RawTable, stated: str | None) -> list[RawColumn]:
@@ -88,6 +90,22 @@ def clock_columns(table: RawTable, stated: str | None) -> list[RawColumn]:
     counting = [one for one in named if _counts(one)]  # "response_time" and "cycle_time" are no clocks
     found = counting or named or named_one_of(table, sorted(SAMPLE_NUMBERS))[:1]
     return found or [one for one in table.columns if _is_stamped(one)][:1]
+
+
+def unnamed_clocks(table: RawTable) -> list[RawColumn]:
+    """Columns beyond the first that count evenly, as a clock does, but are not named as times or sample numbers."""
+    return [
+        one
+        for one in table.columns[1:]
+        if one.clock is None and not is_time_name(one.name) and plain_name(one.name) not in SAMPLE_NUMBERS and _is_even(one)
+    ]
+
+
+def _is_even(column: RawColumn) -> bool:
+    """Whether the first numbers of a column increase by nearly equal steps."""
+    some = column.values.head(LOOKED_AT).astype(str).str.replace(",", ".", regex=False)
+    steps = np.diff(pd.to_numeric(some, errors="coerce").dropna().to_numpy())
+    return len(steps) > FEWEST and bool(steps.min() > 0.0 and np.std(steps) < EVEN * np.mean(steps))
 
 
 def _counts(column: RawColumn) -> bool:

@@ -115,7 +115,9 @@ def locate(rows: Sequence[Cells], decimal: str, header: int | None) -> TableLine
         units = next((k for k in range(header - 1) if _is_units_row(trimmed(rows[k], width))), units)
         return TableLines(header - 1, units, first, last, width, numeric)
     names = [k for k in above if k != units and _is_header(uncommented(rows[k]), width, decimal)]
-    return TableLines(names[-1] if names else None, units, first, last, width, numeric)
+    # Of several lines, kinds and settings below the names, it is the one whose cells differ most.
+    name = max(reversed(names), key=lambda k: len(set(rows[k]) - {""}), default=None)
+    return TableLines(name, units, first, last, width, numeric)
 
 
 def _is_row(row: Cells, key: int, width: int, decimal: str) -> bool:

@@ -41,8 +41,9 @@ def table_of(rows: Sequence[Cells], decimal: str, stated: FileFormat) -> RawTabl
 
 def table_at(rows: Sequence[Cells], found: TableLines, decimal: str, block: pd.DataFrame | None = None) -> RawTable:
     """The table whose lines were found; `block` are its columns, if its rows were read already."""
-    within, skipped = _within(rows, found) if block is None else ([*range(found.first, found.last + 1)], 0)
-    short, remarks = _around(rows, found, decimal, skipped)
+    within, left = _within(rows, found) if block is None else ([*range(found.first, found.last + 1)], [])
+    short, after = _around(rows, found, decimal)
+    remarks = [*left, *after]
     kept = [*within, *short]
     if block is None or short:
         block = pd.DataFrame([[*rows[k][: found.width], *[""] * (found.width - len(rows[k]))] for k in kept], dtype=str)
@@ -66,9 +67,9 @@ def _require_unsplit_header(rows: Sequence[Cells], found: TableLines, decimal: s
         )
 
 
-def _within(rows: Sequence[Cells], found: TableLines) -> tuple[list[int], int]:
-    """Indices of the rows of the table, and how many lines between them are comments or repeat the header."""
-    kept, skipped = [], 0
+def _within(rows: Sequence[Cells], found: TableLines) -> tuple[list[int], list[str]]:
+    """Indices of the rows of the table, and remarks about comments and repeated headers between them, and rows that end early."""
+    kept, skipped, early = [], 0, 0
     repeated = [rows[k] for k in (found.header, found.units) if k is not None]
     for k in range(found.first, found.last + 1):
         row = rows[k]
@@ -79,15 +80,19 @@ def _within(rows: Sequence[Cells], found: TableLines) -> tuple[list[int], int]:
             raise InputError(f"{len(trimmed(row, 0))} cells in row {k + 1}, but {names}: a separator that is also in the cells?")
         else:
             kept.append(k)
-    return kept, skipped
+            early += len(row) < found.width
+    remarks = [f"{_lines(skipped)} within the table skipped: comments or a repeated header"] if skipped else []
+    if early:
+        remarks.append(f"{_lines(early)} with fewer cells than names; the missing ones, at the end, are taken as empty")
+    return kept, remarks
 
 
-def _around(rows: Sequence[Cells], found: TableLines, decimal: str, skipped: int) -> tuple[list[int], list[str]]:
+def _around(rows: Sequence[Cells], found: TableLines, decimal: str) -> tuple[list[int], list[str]]:
     """Indices of rows after the table that belong to it, and remarks about lines that are left out."""
     after = [k for k in range(found.last + 1, len(rows)) if any(rows[k])]
     # Rows without their last, empty cells belong to the table, but a torn last line holds a torn number.
     short = [k for k in after[:-1] if 2 <= len(rows[k]) < found.width and fits(rows[k], found.numeric, decimal)]
-    remarks = [f"{_lines(skipped)} within the table skipped: comments or a repeated header"] if skipped else []
+    remarks = []
     if left := len(after) - len(short):
         remarks.append(f"{_lines(left)} after the table (from line {after[-1] + 1}) not read as numbers")
     return short, remarks

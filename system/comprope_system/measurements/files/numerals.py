@@ -13,7 +13,7 @@ MISSING_WORDS = frozenset(
         "undef", "ovl", "ovf", "ovr", "over", "overflow", "overrange", "over-range", "overload", "under", "underflow",
         "underrange", "under-range", "ol", "+ol", "-ol", "unf", "ufl", "sat", "saturated", "open", "disconnected", "lost",
         "offline", "timeout", "#n/a", "#na", "#value", "#value!", "#num!", "#div/0!", "#ref!", "1.#qnan", "1.#ind", "1.#inf",
-        "1.#inf00", "-1.#ind", "-1.#inf", "keine", "fehler", "ungültig",
+        "1.#inf00", "-1.#ind", "-1.#inf", "keine", "fehler", "burnout", "+over", "-over", "ungültig",
     ]
 )
 MISSING_PHRASES = frozenset({"no data", "no value", "no signal", "not available", "out of range", "kein wert"})
@@ -22,7 +22,7 @@ _DASHES = re.compile(r"[-–—_.*?=/\s]*")
 _MINUS = str.maketrans({"−": "-", "\u00a0": " ", "\u202f": " ", "\u2009": " "})
 _NUMBER = {
     sign: re.compile(
-        rf"[+-]?(?:\d+(?:{re.escape(sign)}\d*)?|{re.escape(sign)}\d+"
+        rf"(?:[+-]\s*)?(?:\d+(?:{re.escape(sign)}\d*)?|{re.escape(sign)}\d+"
         rf"|[1-9]\d{{0,2}}(?:[{other}'’ ]\d{{3}})+(?:{re.escape(sign)}\d*)?)"
         r"(?:[eEdD][+-]?\d+)?"
     )

@@ -28,7 +28,7 @@ def read_plain_block(lines: TextLines, found: TableLines, separator: str, decima
     try:
         read = pd.read_csv(
             io.BytesIO(block), sep=separator, decimal=decimal, header=None, names=range(width), index_col=False, na_values=[""],
-            keep_default_na=False, float_precision="round_trip", skipinitialspace=True, low_memory=False, quoting=3,
+            keep_default_na=False, skipinitialspace=True, low_memory=False, quoting=3,
         )  # fmt: skip
     except (ValueError, UnicodeError):
         return None

@@ -4,9 +4,12 @@ import re
 from collections.abc import Sequence
 from functools import partial
 
-from .dialect import TRIED_LINES, find_separator, locate, split_line
+from comprope.errors import InputError
+
+from .dialect import COMMENTS, TRIED_LINES, TableLines, find_separator, locate, split_line
 from .file_format import FileFormat
 from .grid import table_at
+from .numerals import is_number
 from .plain_block import read_plain_block
 from .raw_table import RawTable
 from .text_encoding import decode
@@ -14,13 +17,15 @@ from .text_lines import Rows, TextLines
 
 _FOR_SPREADSHEETS = re.compile(r"sep=.\s*", re.IGNORECASE)
 _SEVERAL_BLANKS = re.compile(r"\s{2,}")
+_QUOTED_LINES = re.compile(r'"[^"]{1,200}"')
+HEAD = 20_000  # characters at the beginning in which names are looked for
 LABVIEW, LABVIEW_END = "LabVIEW Measurement", "***End_of_Header***"
 _COMMA_STAMP = re.compile(r'^("?(?:[^,;\t]*[T ])?\d{1,2}:\d{2}:\d{2}),(\d{3,6})(?=["\s]*,)')
 
 
 def read_text_table(data: bytes, stated: FileFormat) -> RawTable:
     """The table of a text file; raises `InputError`, without the file's name, if there is none."""
-    text = decode(data, stated.encoding)
+    text = _with_names_in_one_line(decode(data, stated.encoding))
     lines: Sequence[str] = TextLines(text)
     if stated.header is None and len(lines) and lines[0].startswith(LABVIEW):
         stated = stated.model_copy(update={"header": _labview_header(lines)})
@@ -29,10 +34,30 @@ def read_text_table(data: bytes, stated: FileFormat) -> RawTable:
         lines = _with_points_in_stamps(lines)
     rows = Rows(lines, partial(_cells, separator=separator))
     found = locate(rows, decimal, stated.header)
+    if separator == " ":
+        _require_whole_rows(rows, found, decimal)
     block = None
     if isinstance(lines, TextLines):
         block = read_plain_block(lines, found, separator, decimal)
     return table_at(rows, found, decimal, block)
+
+
+def _with_names_in_one_line(text: str) -> str:
+    """The text with blanks in place of line ends within quoted names, as spreadsheets write them."""
+    head = text[:HEAD]
+    if all(line.count('"') % 2 == 0 for line in head.splitlines()[:-1]):
+        return text
+    return _QUOTED_LINES.sub(lambda match: " ".join(match[0].split()), head) + text[HEAD:]
+
+
+def _require_whole_rows(rows: Rows, found: TableLines, decimal: str) -> None:
+    """Raise `InputError` for a row between blanks that lacks cells: which ones, nobody can say."""
+    for k in range(found.first, len(rows)):
+        if 2 <= len(rows[k]) < found.width and all(is_number(cell, decimal) for cell in rows[k]):
+            raise InputError(
+                f"{len(rows[k])} cells in row {k + 1}, {found.width} in others: between blanks, a missing value needs a word, "
+                "such as NaN"
+            )
 
 
 def _labview_header(lines: Sequence[str]) -> int | None:
@@ -47,7 +72,8 @@ def _cells(line: str, separator: str) -> list[str]:
         return []
     cells = split_line(line, separator)
     if separator == " " and not any(cell[:1].isdigit() or cell[:1] in "+-" for cell in cells):
-        return _SEVERAL_BLANKS.split(line.strip())
+        names = _SEVERAL_BLANKS.split(line.strip())
+        return names if len(names) > 1 or not line.startswith(COMMENTS) else cells
     return cells
 
 

@@ -5,10 +5,12 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
 from scipy.sparse import csr_array
 
 Floats = NDArray[np.float64]
+
+RIDGE = 1e-12  # of the largest diagonal element
 
 
 class PenalisedProblem:
@@ -33,12 +35,22 @@ class PenalisedProblem:
 
     def solve(self, weight: float) -> tuple[float, Floats]:
         """-2 log restricted likelihood (less a constant) and coefficients for log10 of the penalty's weight."""
-        factor = cholesky_banded(self.data + 10.0**weight * self.penalty, lower=True)
+        factor = _factor(self.data + 10.0**weight * self.penalty)
         coefficients = cho_solve_banded((factor, True), self.right)
         # Lower bound for the likelihood of a signal without noise: the rounding of values in the file.
         misfit = max(self.square - float(coefficients @ self.right), 1e-14 * self.count)
         determinant = 2.0 * np.log(factor[0]).sum() - self.rank * weight * np.log(10.0)
         return (self.count - 1) * np.log(misfit / self.count) + determinant, coefficients
+
+
+def _factor(matrix: Floats) -> Floats:
+    """Cholesky factor of a banded matrix; one that is singular in double precision is made regular."""
+    try:
+        return np.asarray(cholesky_banded(matrix, lower=True))
+    except LinAlgError:
+        matrix = matrix.copy()
+        matrix[0] += RIDGE * matrix[0].max()
+        return np.asarray(cholesky_banded(matrix, lower=True))
 
 
 def _banded(matrix: csr_array, degree: int) -> Floats:
