@@ -1,7 +1,7 @@
 """Add an effect to a model: fitted on the fit runs together with the plant parameters, validated on the runs held out."""
 
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..diagnosis.linear_screening import promising_frequencies, screen_about_fit
 from ..estimation.coarse_to_fine import fit_coarse_to_fine, fit_from_file, with_derivatives
 from ..estimation.effect_responses import effect_responses
 from ..estimation.gauss_newton import FitResult
+from ..estimation.identifiability import identifiability
 from ..estimation.initial_guess import best_initial_guess
 from ..estimation.linearisation import instrument_jacobian, point_at
 from ..estimation.mass_search import search_rope_mass
@@ -116,6 +117,7 @@ class UpdatedModel:
             "by_run": {file: dict(shifts) for file, shifts in self.fitted.point.shifts.items()},
             "intervals": {key: one.to_json() for key, one in self.effects.items()},
             "plant": {key: one.to_json() for key, one in self.plant.items()},
+            "identifiability": asdict(identifiability(self.fitted, self.effects)),
             "reduced_chi_square": self.reduced_chi_square,
             "misfit_per_datum": self.reduced_chi_square,
         }  # fmt: skip

@@ -7,6 +7,7 @@ from ..model_updating.add_effect import UpdatedModel
 from ..model_updating.stepwise_selection import StepwiseSelection
 from . import figures, sentences, tables
 from .comparison_page import before_and_after, order_section
+from .estimate_sentences import estimate_sentences
 
 ESTIMATES = "With one standard error and a 95 % confidence interval: the effect, then the plant parameters."
 
@@ -36,7 +37,8 @@ def save_selection(path: Path, found: StepwiseSelection) -> None:
 def _model_sections(updated: UpdatedModel) -> list[Section]:
     """Estimates, and residuals before and after."""
     fit = f"{updated.effect} and plant parameters as fitted"
-    estimates: list[Block] = [ESTIMATES, tables.estimate_table(updated.effects), tables.estimate_table(updated.plant)]
+    limits = estimate_sentences(updated.fitted, updated.effects)
+    estimates: list[Block] = [ESTIMATES, *limits, tables.estimate_table(updated.effects), tables.estimate_table(updated.plant)]
     return [
         Section("estimates", "Estimates", estimates),
         before_and_after(updated.before, updated.after, fit),

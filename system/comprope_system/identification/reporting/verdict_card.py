@@ -11,6 +11,7 @@ from ..estimation.parameter_estimates import Estimate, effect_estimates, standar
 from ..settings import VERDICT
 from .detection_limits import undetectable
 from .effect_descriptions import drawing, meaning, parameter_label, parameter_unit
+from .estimate_sentences import estimate_sentences
 from .formatting import in_handy_unit, listed_words, percent, probability
 
 KINDS = {
@@ -35,6 +36,8 @@ def verdict_card(validated: ValidatedDiagnosis, proposals: Sequence[ProposedRun]
         ("next run to measure", _next_run(found, proposals)),
     ]
     values = _values(found) if found.verdict else []
+    if found.verdict and (limits := estimate_sentences(found.ranking[0].fitted, _estimates(found))):
+        facts.insert(2, ("limits of the estimates", " ".join(limits)))
     drawings, texts = [drawing(one) for one in names], [meaning(one) for one in names]
     return Card(KINDS[found.kind], title[0].upper() + title[1:], texts, drawings, values, facts, next_command(validated))
 
@@ -68,9 +71,13 @@ def _readable(name: str) -> str:
 
 def _values(found: Diagnosis) -> list[tuple[str, str, str]]:
     """Parameters of the verdict's effects in handy units with their 95 % intervals; a phase says nothing by itself."""
+    return [_value(found, key, one) for key, one in _estimates(found).items() if key.split(".")[2] != "phase"]
+
+
+def _estimates(found: Diagnosis) -> dict[str, Estimate]:
+    """Estimates of the parameters of the verdict's effects, by model key."""
     fitted = found.ranking[0].fitted
-    estimates = effect_estimates(fitted, standard_error_scale(fitted, len(found.problem.data)))
-    return [_value(found, key, one) for key, one in estimates.items() if key.split(".")[2] != "phase"]
+    return effect_estimates(fitted, standard_error_scale(fitted, len(found.problem.data)))
 
 
 def _value(found: Diagnosis, key: str, one: Estimate) -> tuple[str, str, str]:

@@ -16,6 +16,7 @@ from ..estimation.parameter_estimates import Estimate
 from ..model_updating.add_effect import UpdatedModel, file_comment
 from ..model_updating.stepwise_selection import SelectionStep, StepwiseSelection
 from ..reporting import sentences, tables
+from ..reporting.estimate_sentences import estimate_sentences
 from ..reporting.formatting import paragraphs, text_table, wrapped
 
 
@@ -89,7 +90,7 @@ class AddResult(_ModelResult):
         """NRMSE before and after, by run, and estimates with their confidence intervals."""
         stages = {"as given": self.updated.before, "plant refitted": self.updated.refitted, "with it": self.updated.after}
         errors, estimates = tables.stage_table(stages), tables.estimate_table(self.parameters)
-        return paragraphs(wrapped(self.headline()), text_table(errors), text_table(estimates))
+        return paragraphs(wrapped(self.headline()), text_table(errors), text_table(estimates), *_limits(self.updated))
 
     def to_json(self) -> dict[str, Any]:
         """Errors before and after on fit and validation runs, and estimates."""
@@ -147,8 +148,9 @@ class ImproveResult(_ModelResult):
 
     def summary(self) -> str:
         """NRMSE after each step, and estimates with their confidence intervals."""
-        estimates = text_table(tables.estimate_table(self.parameters))
-        return paragraphs(wrapped(self.headline()), text_table(tables.step_table(self.selection)), estimates)
+        steps, estimates = tables.step_table(self.selection), tables.estimate_table(self.parameters)
+        limits = _limits(self.selection.final)
+        return paragraphs(wrapped(self.headline()), text_table(steps), text_table(estimates), *limits)
 
     def to_json(self) -> dict[str, Any]:
         """Steps, their shares in the reduction of the NRMSE, and the final fit."""
@@ -164,3 +166,9 @@ class ImproveResult(_ModelResult):
         from ..reporting.update_pages import save_selection
 
         save_selection(Path(path), self.selection)
+
+
+def _limits(updated: UpdatedModel) -> list[list[str]]:
+    """Limits of the estimates as a paragraph, if there are any."""
+    sentences_of_limits = estimate_sentences(updated.fitted, updated.effects)
+    return [wrapped(*sentences_of_limits)] if sentences_of_limits else []

@@ -173,6 +173,10 @@ class Estimates:
     confidence_quantile: float = setting(
         1.96, "standard errors", "half width of a 95 % interval", f"{DERIVED}: normal distribution"
     )
+    strong_correlation: float = setting(
+        0.95, "1", "correlation of two estimates above which it is reported",
+        f"{DERIVED}: with the other one known, the standard error would be less than a third",
+    )  # fmt: skip
     run_phase_prior: float = setting(1.0, "rad", "prior standard deviation of a run's phase about the common one", JUDGEMENT)
 
 
