@@ -71,5 +71,7 @@ def test_bad_values_are_told_all_at_once() -> None:
     with pytest.raises(InputError) as refused:
         comprope_system.SwayOptions(amplitude=9.0, floors=1, duration=0.0)
     assert str(refused.value).splitlines() == [
-        "amplitude = 9: 0.0001 to 5 is accepted", "floors = 1: 2 to 200 is accepted", "duration = 0: 1 to 7200 is accepted",
-    ]  # fmt: skip
+        "amplitude = 9 m: 0.0001 to 5 m is accepted",
+        "floors = 1: 2 to 200 is accepted",
+        "duration = 0 s: 1 to 7200 s is accepted",
+    ]

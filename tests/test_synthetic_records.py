@@ -83,5 +83,5 @@ def test_bad_values_are_told_all_at_once() -> None:
     lines = str(refused.value).splitlines()
     assert lines[0] == "kind = flood: earthquake or wind is accepted"
     assert len(lines) == 4
-    with pytest.raises(InputError, match="top = 30 m: the building must reach the top landing, at 50 m"):
+    with pytest.raises(InputError, match="top = 30 m: from the top landing, at 50 m, to 1200 m is accepted"):
         comprope_system.building("tower50", top=30.0)

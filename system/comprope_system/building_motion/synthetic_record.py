@@ -21,9 +21,9 @@ RISE, FALL = 0.15, 0.35  # shares of an earthquake's duration over which it grow
 GUSTS_RISE = 20.0  # s over which wind grows from calm
 DAMPING = {"earthquake": 0.02, "wind": 0.01}  # ratio; usual values for steel towers at strong and at moderate amplitudes
 SHEAR_BEAM = (1.0, 1.0 / 3.0)  # periods of the modes over that of the first
-LIMITS = {
-    "duration": (10.0, 3600.0), "peak": (1e-4, 20.0), "soil_period": (0.2, 20.0), "speed": (1.0, 80.0), "damping": (1e-4, 0.5),
-    "period": (0.2, 30.0), "width": (1.0, 500.0),
+LIMITS = {  # least, largest, unit
+    "duration": (10.0, 3600.0, " s"), "peak": (1e-4, 20.0, ""), "soil_period": (0.2, 20.0, " s"), "speed": (1.0, 80.0, " m/s"),
+    "damping": (1e-4, 0.5, ""), "period": (0.2, 30.0, " s"), "width": (1.0, 500.0, " m"),
 }  # fmt: skip
 
 
@@ -50,10 +50,10 @@ class RecordOptions:
     def __post_init__(self) -> None:
         """Raises `InputError` with all values that are not accepted."""
         wrong = [] if self.kind in DAMPING else [f"kind = {self.kind}: earthquake or wind is accepted"]
-        for name, (low, high) in LIMITS.items():
+        for name, (low, high, unit) in LIMITS.items():
             value = getattr(self, name)
             if value is not None and not low <= value <= high:
-                wrong.append(f"{name} = {value:g}: {low:g} to {high:g} is accepted")
+                wrong.append(f"{name} = {value:g}{unit}: {low:g} to {high:g}{unit} is accepted")
         if self.seed < 0:
             wrong.append(f"seed = {self.seed}: a whole number from 0 is accepted")
         if wrong:

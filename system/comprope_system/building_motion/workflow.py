@@ -8,6 +8,7 @@ from .result import BuildingResult
 from .synthetic_record import Kind, RecordOptions, synthetic_record
 
 ELLIS = 46.0  # Hz m: first natural frequency of a building times its height: B. Ellis, Proc. ICE 69, 1980
+HIGHEST = 1200.0  # m, of a building
 PEAKS = {"earthquake": 0.3, "wind": 0.05}  # m/s2 of the ground, m of the top
 
 __all__ = ["RecordOptions", "building"]
@@ -30,8 +31,8 @@ def building(
     """
     given = read_model(model, changes)
     high, base = given.shaft.height if top is None else top, -given.shaft.pit
-    if high < given.shaft.height:
-        raise InputError(f"top = {high:g} m: the building must reach the top landing, at {given.shaft.height:g} m, or higher")
+    if not given.shaft.height <= high <= HIGHEST:
+        raise InputError(f"top = {high:g} m: from the top landing, at {given.shaft.height:g} m, to {HIGHEST:g} m is accepted")
     if options is None:
         usual = {"period": (high - base) / ELLIS, "peak": PEAKS.get(kind, 1.0)}
         options = RecordOptions(kind, **(usual | others))  # type: ignore[arg-type]

@@ -6,9 +6,10 @@ from comprope.errors import InputError
 
 from .parked_response import Sway
 
-LIMITS = {
-    "amplitude": (1e-4, 5.0), "period": (0.2, 60.0), "floors": (2, 200), "limit": (1e-4, 20.0), "duration": (1.0, 7200.0),
-    "damping": (0.0, 0.5), "positions": (2, 400), "periods": (2, 400), "verify": (0, 20), "spread": (0.0, 0.5),
+LIMITS = {  # least, largest, unit
+    "amplitude": (1e-4, 5.0, " m"), "period": (0.2, 60.0, " s"), "floors": (2, 200, ""), "limit": (1e-4, 20.0, " m"),
+    "duration": (1.0, 7200.0, " s"), "damping": (0.0, 0.5, ""), "positions": (2, 400, ""), "periods": (2, 400, ""),
+    "verify": (0, 20, ""), "spread": (0.0, 0.5, ""),
 }  # fmt: skip
 
 
@@ -35,8 +36,8 @@ class SwayOptions:
     def __post_init__(self) -> None:
         """Raises `InputError` with all values that are not accepted."""
         wrong = [
-            f"{name} = {value:g}: {low:g} to {high:g} is accepted"
-            for name, (low, high) in LIMITS.items()
+            f"{name} = {value:g}{unit}: {low:g} to {high:g}{unit} is accepted"
+            for name, (low, high, unit) in LIMITS.items()
             if (value := getattr(self, name)) is not None and not low <= value <= high
         ]
         if wrong:
