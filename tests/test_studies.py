@@ -18,7 +18,7 @@ from comprope_system.studies.design import least_mass
 from comprope_system.studies.peaks import oscillator_peak, peak
 from comprope_system.studies.study import StudyOptions
 from comprope_system.studies.swing import MEASURES, swing, swing_case
-from comprope_system.verification import capstan, invariants, offset, reference
+from comprope_system.verification import capstan, invariants, offset, reference, shortening
 from comprope_system.verification.free_rope import Hanging, swing_sideways
 
 COARSE = {"rope.element_length": 0.1, "solver.step": 0.01}
@@ -165,6 +165,14 @@ def test_verification_offset() -> None:
     # EI / (2 r T) = 20 N m2 / (2 * 0.4 m * 596 N) = 41.9 mm at the axle; 2 m above it 6 % less, as the tension grows.
     weight = 9.81 * (120.0 + 1.2 * np.pi * 0.4)
     assert row.rigid[0] == pytest.approx(0.94 * 20.0 / (0.4 * weight), rel=0.03)
+
+
+def test_a_rope_that_is_shortened_gains_energy_as_its_length_falls() -> None:
+    """As 1 / length without friction; friction takes the more the further the rope swings."""
+    name, amplitude, changes = shortening.CASES[1]
+    row, rubbed = shortening.shorten(name, amplitude, changes), shortening.shorten("", 0.1, {"rope.element_length": 0.1})
+    assert abs(row.exponent + 1.0) < shortening.ALLOWED and abs(row.product - 1.0) < shortening.ALLOWED
+    assert rubbed.product < 0.8 and rubbed.lost > 10.0
 
 
 def test_a_rope_that_slides_obeys_the_capstan_equation_with_bending() -> None:

@@ -7,7 +7,9 @@ import typer
 
 NAMES = Annotated[
     list[str] | None,
-    typer.Argument(metavar="[NAME]...", help="reference, offset, periods, capstan, convergence, invariants; default all."),
+    typer.Argument(
+        metavar="[NAME]...", help="reference, offset, periods, capstan, shortening, convergence, invariants; default all."
+    ),
 ]
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for HTML page and figures.")]
 

@@ -13,7 +13,7 @@ from ..report.comparison_report import ComparisonReport
 from ..report.page import Section, save_page, save_pictures
 from .check import PASS, Check, verdicts
 
-NAMES = ("reference", "offset", "periods", "capstan", "convergence", "invariants")
+NAMES = ("reference", "offset", "periods", "capstan", "shortening", "convergence", "invariants")
 PAGE = "verification.html"
 TITLE = "Compensation rope: verification of the numerics"
 LEAD = (
