@@ -2,6 +2,7 @@
 
 import math
 
+from .arguments import Ambience, Weights
 from .equations_of_motion import correction, forces
 from .jit import entry, kernel
 from .rope import dahl_state
@@ -15,15 +16,15 @@ CLOSE = 1e-8  # m, a correction below which a step ends
 
 
 @kernel
-def predict(n, h, ends, q, v, a, q1, v1, a1):
+def predict(n, h, ends, old, new):
     """The state after h with the acceleration of now; prescribed `ends` [4, 3]: x and y of car and counterweight."""
     for k in range(2 * n + 2):
-        a1[k] = a[k]
-        q1[k] = q[k] + h * v[k] + 0.5 * h * h * a[k]
-        v1[k] = v[k] + h * a[k]
+        new.a[k] = old.a[k]
+        new.q[k] = old.q[k] + h * old.v[k] + 0.5 * h * h * old.a[k]
+        new.v[k] = old.v[k] + h * old.a[k]
     for j in range(4):
         k = j if j < 2 else 2 * n - 4 + j
-        q1[k], v1[k], a1[k] = ends[j, 0], ends[j, 1], ends[j, 2]
+        new.q[k], new.v[k], new.a[k] = ends[j, 0], ends[j, 1], ends[j, 2]
 
 
 @kernel
@@ -37,8 +38,12 @@ def balance(n, p, mass, W, a, a1):
 
 
 @kernel
-def step(p, n, h, W, mass, kappa0, z0, thermal, wind, q, v, a, q1, v1, a1, qf, vf):
-    """Newton's iteration from the predicted state, with a new tangent where corrections shrink slowly; their count, 0 in vain."""
+def step(p, n, h, W, rope, around, states):
+    """Newton's iteration from the predicted state, with a new tangent where corrections shrink slowly; their count, 0 in vain.
+
+    `states` are the old one, the new one, and one between them.
+    """
+    (q, v, a), (q1, v1, a1), (qf, vf, _) = states
     N = 2 * n
     ck, cc = 1.0 - ALPHA_F, (1.0 - ALPHA_F) * GAMMA / (BETA * h)
     cm = (1.0 - ALPHA_M) / (BETA * h * h)
@@ -48,8 +53,8 @@ def step(p, n, h, W, mass, kappa0, z0, thermal, wind, q, v, a, q1, v1, a1, qf, v
         for k in range(N + 2):
             qf[k] = (1.0 - ALPHA_F) * q1[k] + ALPHA_F * q[k]
             vf[k] = (1.0 - ALPHA_F) * v1[k] + ALPHA_F * v[k]
-        forces(p, n, W, mass, kappa0, z0, thermal, wind, qf, vf, ck, cc, cm, fresh)
-        balance(n, p, mass, W, a, a1)
+        forces(p, n, W, rope, around, qf, vf, Weights(ck, cc, cm, fresh))
+        balance(n, p, rope.mass, W, a, a1)
         largest = correction(n, W, fresh)
         for k in range(N + 2):
             change = share * W.x[5 + k]
@@ -64,15 +69,15 @@ def step(p, n, h, W, mass, kappa0, z0, thermal, wind, q, v, a, q1, v1, a1, qf, v
 
 
 @kernel
-def keep_history(p, n, W, q1, kappa0, z0):
+def keep_history(p, n, q1, rope):
     """Curvature and Dahl's state at the end of a step, from its shape."""
     for i in range(1, n - 1):
         ax, ay = q1[2 * i] - q1[2 * i - 2], q1[2 * i + 1] - q1[2 * i - 1]
         bx, by = q1[2 * i + 2] - q1[2 * i], q1[2 * i + 3] - q1[2 * i + 1]
         size = math.sqrt((ax * ax + ay * ay) * (bx * bx + by * by))
         kappa = 2.0 * (ax * by - ay * bx) / (size + ax * bx + ay * by) / p.element
-        z0[i] = dahl_state(p, kappa - kappa0[i], z0[i])
-        kappa0[i] = kappa
+        rope.z0[i] = dahl_state(p, kappa - rope.kappa0[i], rope.z0[i])
+        rope.kappa0[i] = kappa
 
 
 @kernel
@@ -90,31 +95,38 @@ def lateral_displacement(n, q, radius, side, height):
     return side * y - radius
 
 
-@entry
-def integrate(p, n, h, W, mass, ends, thermal, kappa0, z0, q, v, a, work3, sensors, every, out):
-    """Move the ends along ends [steps + 1, 4, 3] and fill out [steps / every + 1, 6 + sensors].
+@kernel
+def keep_row(p, n, W, state, record, row):
+    """Fill one row of the record."""
+    q = state.q
+    row[0], row[1], row[2] = q[2 * n], q[2 * n + 1], state.v[2 * n + 1]
+    row[3], row[4], row[5] = W.tensions[0], W.tensions[1], W.tensions[2]
+    for s in range(len(record.sensors)):
+        row[6 + s] = lateral_displacement(n, q, p.radius, record.sensors[s, 0], record.sensors[s, 1])
 
-    Columns: axle, angle, angular velocity, car's and counterweight's end tension, sheave force, then sensors [count, 2] of side
-    and height. thermal [steps + 1] is the rope's strain by temperature. Returns the mean number of iterations, or less than 0.
+
+@entry
+def integrate(p, n, h, W, rope, motion, states, record):
+    """Move the ends along a motion, from the first of three states, the others being room; fill the record.
+
+    `motion` is ends [steps + 1, 4, 3] and thermal [steps + 1], the strain by temperature. Columns of the record: axle, angle,
+    angular velocity, car's and counterweight's end tension, sheave force, then sensors. Returns the mean number of iterations,
+    or less than 0.
     """
+    (ends, thermal), (old, new, _) = motion, states
     steps, total = len(ends) - 1, 0
-    q1, v1, a1, qf, vf = work3[0], work3[1], work3[2], work3[3], work3[4]
-    forces(p, n, W, mass, kappa0, z0, thermal[0], 0.0, q, v, 0.0, 0.0, 0.0, False)
+    forces(p, n, W, rope, Ambience(thermal[0], 0.0), old.q, old.v, Weights(0.0, 0.0, 0.0, False))
     for k in range(steps + 1):
         if k > 0:
-            predict(n, h, ends[k], q, v, a, q1, v1, a1)
-            count = step(p, n, h, W, mass, kappa0, z0, thermal[k], -ends[k, 0, 1], q, v, a, q1, v1, a1, qf, vf)
+            predict(n, h, ends[k], old, new)
+            count = step(p, n, h, W, rope, Ambience(thermal[k], -ends[k, 0, 1]), states)
             if count == 0:
                 return -float(k)
             total += count
             for j in range(2 * n + 2):
-                q[j], v[j], a[j] = q1[j], v1[j], a1[j]
+                old.q[j], old.v[j], old.a[j] = new.q[j], new.v[j], new.a[j]
             if p.dahl_moment > 0.0:
-                keep_history(p, n, W, q, kappa0, z0)
-        if k % every == 0:
-            row = out[k // every]
-            row[0], row[1], row[2] = q[2 * n], q[2 * n + 1], v[2 * n + 1]
-            row[3], row[4], row[5] = W.tensions[0], W.tensions[1], W.tensions[2]
-            for s in range(len(sensors)):
-                row[6 + s] = lateral_displacement(n, q, p.radius, sensors[s, 0], sensors[s, 1])
+                keep_history(p, n, old.q, rope)
+        if k % record.every == 0:
+            keep_row(p, n, W, old, record, record.out[k // record.every])
     return total / steps

@@ -63,9 +63,9 @@ def inner_forces(n, S, m, f):
 
 
 @kernel
-def inner_tangent(p, n, S, m, kappa, kappa0, z0, ck, cc, A):
-    """Add ck K + cc C of the inner forces to the band A [2 n, 11], diagonal in column 5. How damping turns is left out."""
-    l = p.element
+def inner_tangent(p, n, W, rope, by):
+    """Add ck K + cc C of the inner forces to the band W.A, diagonal in column 5. How damping turns is left out."""
+    S, m, A, ck, cc, l = W.S, W.m, W.A, by.ck, by.cc, p.element
     ea = (ck * p.EA + cc * p.axial_damping) / l
     for e in range(n - 1):
         c, s, N, b = S[e, 0], S[e, 1], S[e, 3], S[e, 5]
@@ -94,9 +94,9 @@ def inner_tangent(p, n, S, m, kappa, kappa0, z0, ck, cc, A):
     for i in range(1, n - 1):
         k = (ck * p.EI + cc * p.bending_damping) / l
         if p.dahl_moment > 0.0:
-            change = kappa[i] - kappa0[i]
+            change = W.kappa[i] - rope.kappa0[i]
             end = 1.0 if change > 0.0 else -1.0
-            stiff = (1.0 - end * z0[i]) * math.exp(-abs(change) / p.dahl_curvature)
+            stiff = (1.0 - end * rope.z0[i]) * math.exp(-abs(change) / p.dahl_curvature)
             k += ck * p.dahl_moment * stiff / (p.dahl_curvature * l)
         u0, w0 = -S[i - 1, 1] * S[i - 1, 5], S[i - 1, 0] * S[i - 1, 5]
         u2, w2 = -S[i, 1] * S[i, 5], S[i, 0] * S[i, 5]

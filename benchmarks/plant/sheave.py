@@ -13,9 +13,9 @@ FADE = 1e-4  # m, penetration over which contact damping sets in
 
 
 @kernel
-def contact(p, n, q, v, f, ck, cc, tangent, A, B, C, D):
-    """Add the groove's forces to f [2 n + 2]; with `tangent` also their part of the matrices. Returns their sum, downward."""
-    N = 2 * n
+def contact(p, n, W, q, v, by):
+    """Add the groove's forces to W.f and, where wanted, their part of the matrices. Returns their sum, downward."""
+    N, f = 2 * n, W.f
     turn = q[N + 1] + p.eccentric_phase
     ex, ey = p.eccentricity * math.cos(turn), -p.eccentricity * math.sin(turn)
     x, y = q[N] + ex, p.guide_slope * (q[N] - p.pit) + ey
@@ -42,41 +42,43 @@ def contact(p, n, q, v, f, ck, cc, tangent, A, B, C, D):
         total += fx
         f[N] -= P * an[0] + F * at[0]
         f[N + 1] -= P * an[1] + F * at[1]
-        if tangent:
-            Hn, Ht = stiffness(p, pen, vn, P, th, ck, cc)
-            spread(i, nx, ny, an, at, Hn, -p.friction * th * Hn, Ht, A, B, C, D)
+        if by.tangent:
+            Hn, Ht = stiffness(p, pen, vn, P, th, by)
+            spread(W, i, (nx, ny), an, at, (Hn, -p.friction * th * Hn, Ht))
     return total
 
 
 @kernel
-def stiffness(p, pen, vn, P, th, ck, cc):
+def stiffness(p, pen, vn, P, th, by):
     """How the normal force falls with displacement along the normal, and friction along the groove."""
     fade, rise = pen / (pen + FADE), FADE / (pen + FADE) ** 2
-    along_normal = p.element * (ck * (p.contact_stiffness - p.contact_damping * rise * vn) + cc * p.contact_damping * fade)
-    return along_normal, cc * p.friction * P * (1.0 - th * th) / p.slip_velocity
+    along_normal = p.element * (by.ck * (p.contact_stiffness - p.contact_damping * rise * vn) + by.cc * p.contact_damping * fade)
+    return along_normal, by.cc * p.friction * P * (1.0 - th * th) / p.slip_velocity
 
 
 @kernel
-def spread(i, nx, ny, an, at, Hn, Hx, Ht, A, B, C, D):
-    """Add one node's contact to band and border: Hn normal by normal, Hx friction by normal, Ht friction by slip."""
+def spread(W, i, normal_way, an, at, H):
+    """Add one node's contact to band and border; H: normal force by normal motion, friction by normal motion and by slip."""
+    (nx, ny), (Hn, Hx, Ht) = normal_way, H
     tx, ty = ny, -nx
     normal, along = (Hn * nx + Hx * tx, Hn * ny + Hx * ty), (Ht * tx, Ht * ty)
     for a in range(2):
-        A[2 * i + a, 5 - a] += normal[a] * nx + along[a] * tx
-        A[2 * i + a, 6 - a] += normal[a] * ny + along[a] * ty
+        W.A[2 * i + a, 5 - a] += normal[a] * nx + along[a] * tx
+        W.A[2 * i + a, 6 - a] += normal[a] * ny + along[a] * ty
         for s in range(2):
-            B[s, 2 * i + a + 5] -= normal[a] * an[s] + along[a] * at[s]
+            W.B[s, 2 * i + a + 5] -= normal[a] * an[s] + along[a] * at[s]
     for w in range(2):
         pushed, turned = an[w] * Hn + at[w] * Hx, at[w] * Ht
-        C[w, 2 * i] -= pushed * nx + turned * tx
-        C[w, 2 * i + 1] -= pushed * ny + turned * ty
+        W.C[w, 2 * i] -= pushed * nx + turned * tx
+        W.C[w, 2 * i + 1] -= pushed * ny + turned * ty
         for s in range(2):
-            D[w, s] += pushed * an[s] + turned * at[s]
+            W.D[w, s] += pushed * an[s] + turned * at[s]
 
 
 @kernel
-def own_forces(p, q, v, N2, f, ck, cc, tangent, D):
+def own_forces(p, n, W, q, v, by):
     """Add weight, guides, bearing, unbalance and seal to the sheave's two forces."""
+    f, N2 = W.f, 2 * n
     vs, w, turn = v[N2], v[N2 + 1], q[N2 + 1] + p.unbalance_phase
     f[N2] += p.sheave_mass * GRAVITY + p.unbalance * w * w * math.cos(turn)
     f[N2 + 1] -= p.unbalance * GRAVITY * math.sin(turn) + p.seal_stiffness * q[N2 + 1]
@@ -85,9 +87,9 @@ def own_forces(p, q, v, N2, f, ck, cc, tangent, D):
     bearing = p.bearing_coulomb * slope(w, 0.01) + p.bearing_viscous
     f[N2] -= guide * vs
     f[N2 + 1] -= bearing * w
-    if tangent:
-        D[0, 0] += cc * guide
-        D[1, 1] += cc * bearing + ck * p.seal_stiffness
+    if by.tangent:
+        W.D[0, 0] += by.cc * guide
+        W.D[1, 1] += by.cc * bearing + by.ck * p.seal_stiffness
 
 
 @kernel

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .equations_of_motion import work
+from .arguments import Record, Rope, State, empty_state, work
 from .generalised_alpha import integrate
 from .static_equilibrium import static_equilibrium
 from .tower import Floats, Tower
@@ -47,26 +47,9 @@ def simulate(p: Tower, excitation: Excitation, sensors: Mapping[str, tuple[float
     q = static_equilibrium(p, n, W, mass, -begin[0, 0], (-begin[1, 0] - p.radius, begin[3, 0] - p.radius))
     places = np.array(list(sensors.values())).reshape(-1, 2)
     out = np.zeros(((len(excitation.time) - 1) // every + 1, 6 + len(places)))
-    kappa = curvature(p, n, q)
-    v, a = np.zeros_like(q), np.zeros_like(q)
-    done = integrate(
-        p,
-        n,
-        STEP,
-        W,
-        mass,
-        excitation.ends,
-        excitation.thermal,
-        kappa,
-        np.zeros(n),
-        q,
-        v,
-        a,
-        np.zeros((5, len(q))),
-        places,
-        every,
-        out,
-    )
+    states = (State(q, np.zeros_like(q), np.zeros_like(q)), empty_state(n), empty_state(n))
+    motion, record = (excitation.ends, excitation.thermal), Record(places, every, out)
+    done = integrate(p, n, STEP, W, Rope(mass, curvature(p, n, q), np.zeros(n)), motion, states, record)
     if done < 0.0:
         raise RuntimeError(f"the plant failed {-done * STEP:.3f} s into the run")
     names = ("axle", "turned", "omega", "car_tension", "counterweight_tension", "force", *sensors)

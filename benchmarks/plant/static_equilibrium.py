@@ -4,19 +4,20 @@ import math
 
 import numpy as np
 
-from .equations_of_motion import Work, correction, forces
+from .arguments import Ambience, Rope, Weights, Work
+from .equations_of_motion import correction, forces
 from .jit import entry
 from .tower import GRAVITY, Floats, Tower
 
 
 @entry
-def solve_equilibrium(p, n, W, mass, kappa0, z0, q, v):
+def solve_equilibrium(p, n, W, rope, q, v):
     """Newton's iteration with a mass that vanishes with the imbalance; the sheave does not turn. Returns the last correction."""
     N = 2 * n
     first = size = 0.0
     for _ in range(400):
         cm = 1e6 if first == 0.0 else 1e6 * (size / first)
-        forces(p, n, W, mass, kappa0, z0, 0.0, 0.0, q, v, 1.0, 0.0, cm, True)
+        forces(p, n, W, rope, Ambience(0.0, 0.0), q, v, Weights(1.0, 0.0, cm, True))
         W.f[N + 1] = 0.0
         W.D[1, 1] = 1e12
         size = 0.0
@@ -66,7 +67,7 @@ def static_equilibrium(p: Tower, n: int, W: Work, mass: Floats, car: float, offs
     """The state at rest, with the ends `offsets` [m] outside the sheave's sides."""
     q = initial_guess(p, n, car, offsets)
     still = p._replace(friction=0.0, dahl_moment=0.0, drag=0.0)
-    left = solve_equilibrium(still, n, W, mass, np.zeros(n), np.zeros(n), q, np.zeros_like(q))
+    left = solve_equilibrium(still, n, W, Rope(mass, np.zeros(n), np.zeros(n)), q, np.zeros_like(q))
     if not left < 1e-8:
         raise RuntimeError(f"the rope found no rest: the last correction was {left:.1e} m")
     return q
