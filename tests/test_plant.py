@@ -207,7 +207,7 @@ def test_a_site_can_be_measured(site, tmp_path):
         assert all(height < ends[side] for side, height in site.sensors.values())  # in view at rest
     for name, cause in CAUSES.items():
         plan = plants.draw_plan(1, (name,), site=site)
-        assert (plan.column in site.channels) if cause.channel else plan.column is None
+        assert (plan.column in site.channels) if cause.quantities else plan.column is None
 
 
 @pytest.mark.slow
