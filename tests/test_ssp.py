@@ -75,6 +75,24 @@ def test_runs_in_fmpy(system: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert result["rope.sheave_force"] == pytest.approx(1177.2, rel=0.15)
 
 
+def test_an_example_has_a_building_in_the_system(system: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A building of two modes under a record sways, and moves the rope's ends."""
+    times = np.arange(0.0, 10.0, 0.02)
+    record = "".join(f"{t:.2f},{0.5 * np.sin(5.0 * t):.9g}\n" for t in times)
+    (tmp_path / "ground.csv").write_text(f"time,ground_acceleration\n{record}", encoding="utf-8")
+    fmus, out = [system.with_name(f"{name}.fmu") for name in ("ElevatorDrive", "CompensationRope")], tmp_path / "system.ssp"
+    command = [sys.executable, BUILDER.parent / "docs" / "examples" / "building_ssp.py", *fmus, tmp_path / "ground.csv", out]
+    subprocess.run(command, check=True, timeout=120)
+    found = read_ssd(str(out)).system
+    inputs = {one.endConnector for one in found.connections if one.startElement == "building" and one.endElement == "rope"}
+    assert inputs == {"car_lateral_displacement", "counterweight_lateral_displacement", "base_acceleration"}
+    monkeypatch.setattr(simulation, "instantiate_fmu", with_start_values(simulation.instantiate_fmu))
+    result = simulation.simulate_ssp(str(out), stop_time=3.0, step_size=0.01)
+    assert np.ptp(result["rope.counterweight_lateral_displacement"]) > 1e-3
+    assert np.ptp(result["rope.base_acceleration"]) > 0.9
+    assert all(np.all(np.isfinite(result[name])) for name in result.dtype.names)
+
+
 @compiler
 def test_native_drive_and_rope_make_a_system(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same trip as with the FMUs of one process, with no Python in it."""
