@@ -154,6 +154,17 @@ def test_a_record_shorter_than_the_trip_is_refused(tmp_path: Path) -> None:
         comprope_system.simulate(model_in(tmp_path, {"ground": zero, "top": zero}), duration=10.0)
 
 
+def test_times_that_do_not_increase_are_refused(tmp_path: Path) -> None:
+    """Without advice about keys that a model file does not have."""
+    zero = np.zeros(len(TIMES))
+    model = model_in(tmp_path, {"ground": zero, "top": zero})
+    pd.DataFrame({"time": np.round(TIMES, 1), "ground": zero, "top": zero}).to_csv(tmp_path / "r.csv", index=False)
+    with pytest.raises(InputError) as refused:
+        trip(model)
+    assert "time in row 3 must be later than the row before" in str(refused.value)
+    assert "[file]" not in str(refused.value)
+
+
 def test_other_commands_take_a_building_at_rest(tmp_path: Path) -> None:
     """A design or a campaign would leave the record out without a word."""
     zero = np.zeros(len(TIMES))

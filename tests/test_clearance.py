@@ -90,9 +90,10 @@ def test_a_rope_that_bounces_off_a_wall_touches_it_and_goes_no_further() -> None
 def test_the_command_prints_and_draws_the_clearance(tmp_path: Path) -> None:
     """With a wall at a distance; without one it says what is needed, before it simulates."""
     arguments = ["simulate", "tower50", "--set", "rope.element_length=0.1", "--time", "2", "--clearance", str(tmp_path / "c.png")]
-    told = CliRunner().invoke(cli.app, [*arguments, "--wall", "300"])
+    told = CliRunner().invoke(cli.app, [*arguments, "--wall", "300", "--report", str(tmp_path / "page.html")])
     assert told.exit_code == 0, told.output
     assert "clearance from a wall at 300 mm: least" in told.output
     assert (tmp_path / "c.png").stat().st_size > 10_000
+    assert "clearance from a wall at 300 mm" in (tmp_path / "page.html").read_text(encoding="utf-8")
     with pytest.raises(InputError, match="the distance of the wall is needed: --wall MM"):
         CliRunner().invoke(cli.app, arguments, catch_exceptions=False)

@@ -25,6 +25,7 @@ Floats = NDArray[np.float64]
 UNITS = {"displacement": MOTIONS["position"], "acceleration": MOTIONS["acceleration"]}
 FEWEST = 5  # samples of a record
 LARGEST = {"displacement": 5.0, "acceleration": 50.0}  # m relative to the base, m/s2 of the base: what the rope's inputs accept
+CAMPAIGN_ADVICE = ": if samples are even"  # begins what a campaign.toml could say about times that do not increase
 SLOW_START = 1e-3  # m/s of the building at the start of the simulation that are worth a remark
 
 
@@ -107,7 +108,10 @@ def _times(table: RawTable) -> Floats:
     if not clocks:
         names = ", ".join(one.name for one in table.columns)
         raise InputError(f"no column of times; the header has {names}, and time is accepted")
-    return time_axis(clocks[0], table, FileFormat()).seconds
+    try:
+        return time_axis(clocks[0], table, FileFormat()).seconds
+    except InputError as error:
+        raise InputError(str(error).partition(CAMPAIGN_ADVICE)[0]) from None
 
 
 def _column(table: RawTable, name: str, building: Building, remarks: list[str]) -> Floats:

@@ -1,6 +1,7 @@
 """`comprope simulate`: one trip of drive and rope."""
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, cast
 
@@ -142,7 +143,9 @@ def simulate(model: MODEL, motion: MotionOptions, stop: StopOptions, options: Ru
             coupling="one-way" if options.one_way else "two-way",
             fmu=_fmus(options, files), progress=progress,
         )  # fmt: skip
-    finish(result, (files.out, result.to_csv), (files.plot, result.save_plot), (files.report, result.save_html))
+    finish(
+        result, (files.out, result.to_csv), (files.plot, result.save_plot), (files.report, partial(result.save_html, wall=wall))
+    )
     if files.needs_clearance:
         typer.echo(result.clearance(wall).summary())
         if files.clearance:

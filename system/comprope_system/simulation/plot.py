@@ -14,6 +14,7 @@ from .measured_run import Channel, Run
 from .trip_simulation import Simulated
 
 REST = 0.2  # s at the start of a record that count as rest, where the car moves from the first sample on
+MOVED = "car_lateral_displacement"  # a column of trips in a building that moves
 SIMULATED, MEASURED, SECOND = "#0b4f8a", "#e8893b", "#7a8794"
 
 
@@ -26,13 +27,16 @@ def save_trip(path: Path, simulated: Simulated, measured: Run | None = None) -> 
 
 def draw_trip(simulated: Simulated, measured: Run | None = None) -> Figure:
     """Figure with car and sheave on the left, lateral displacement at each sensor on the right."""
-    rows = max(4, len(simulated.sensors))
+    shown = 5 if MOVED in simulated.table else 4  # a fifth panel for a building that moves
+    rows = max(shown, len(simulated.sensors))
     figure = Figure(figsize=(13.0, 2.1 * rows + 0.6), layout="constrained")
     grid = figure.add_gridspec(rows, 2)
-    left = [figure.add_subplot(grid[row, 0]) for row in range(4)]
+    left = [figure.add_subplot(grid[row, 0]) for row in range(shown)]
     right = [figure.add_subplot(grid[row, 1]) for row in range(len(simulated.sensors))]
     _draw_car(left[0], left[1], simulated)
     _draw_sheave(left[2], left[3], simulated)
+    if MOVED in simulated.table:
+        _draw_building(left[4], simulated)
     for axes, name in zip(right, simulated.sensors, strict=True):
         _draw_sensor(axes, simulated, name, measured)
     for axes in (*left, *right):
@@ -60,13 +64,21 @@ def _draw_sheave(force: Axes, motion: Axes, simulated: Simulated) -> None:
     turning.spines["top"].set_visible(False)
 
 
+def _draw_building(axes: Axes, simulated: Simulated) -> None:
+    table = simulated.table
+    for side, colour in (("car", SIMULATED), ("counterweight", MEASURED)):
+        axes.plot(table["time"], 1e3 * table[f"{side}_lateral_displacement"], color=colour, linewidth=1.0, label=side)
+    axes.set_ylabel("ends with the\nbuilding, outward [mm]")
+    axes.legend(loc="best", frameon=False, ncols=2)
+
+
 def _draw_sensor(axes: Axes, simulated: Simulated, name: str, measured: Run | None) -> None:
     table = simulated.table
     if measured and name in measured.channels:
         time, value = alongside(measured.channels[name], measured, simulated, name)
         axes.plot(time, value, color=MEASURED, linewidth=0.8, label="measured")
     _curve(axes, table["time"], 1e3 * table[name], f"{name} [mm]")
-    if axes is axes.figure.axes[4]:
+    if name == simulated.sensors[0]:
         axes.set_title("Lateral displacement of the rope, outward", loc="left", fontweight="bold")
         if measured:
             axes.legend(loc="best", frameon=False, ncols=2)

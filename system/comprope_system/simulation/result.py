@@ -12,6 +12,7 @@ from comprope.rope.effects import RopeModel
 
 from ..building_motion.motion import BuildingMotion
 from ..report.json_output import plain
+from ..report.page import Picture, Section
 from ..report.result import Result
 from .animation.frames import Recording
 from .clearance import Clearance, clearance_of, known_wall
@@ -78,13 +79,20 @@ class SimulationResult(Result, Simulated):
         with atomic_write(path) as temporary:
             figure.savefig(temporary, dpi=150)
 
-    def save_html(self, path: str | Path) -> None:
-        """Write an HTML page with an animation; raises `InputError` if the rope was an FMU, which does not output its shape."""
+    def save_html(self, path: str | Path, wall: float | None = None) -> None:
+        """Write an HTML page with an animation, and the clearance from a wall at a distance [m], or from that of the model.
+
+        Raises `InputError` if the rope was an FMU, which does not output its shape.
+        """
         from .animation.page import save_trip_page
 
         if self.recording is None:
             raise InputError("fmu = True: the page needs the rope's shape, which an FMU does not output; fmu = False is accepted")
-        save_trip_page(Path(path), self.model_name, self.model, self, self.recording, self.measured)
+        others = []
+        if wall is not None or getattr(self.model.effects, "shaft_walls", None) is not None:
+            found = self.clearance(wall)
+            others.append(Section("clearance", "Clearance", [found.summary(), Picture("clearance", found.plot())]))
+        save_trip_page(Path(path), self.model_name, self.model, self, self.recording, self.measured, others)
 
     def save_plot(self, path: str | Path) -> None:
         """Write the plot of the trip as .png, .pdf or .svg, completely or not at all."""

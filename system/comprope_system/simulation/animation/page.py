@@ -1,5 +1,6 @@
 """HTML page of one trip: animation, key figures, plots, parameters of the model."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from comprope.rope.parameters import Base
@@ -26,9 +27,15 @@ _CAPTION = (
 
 
 def save_trip_page(
-    path: Path, name: str, model: Base, trip: Simulated, recording: Recording, measured: Run | None = None
+    path: Path,
+    name: str,
+    model: Base,
+    trip: Simulated,
+    recording: Recording,
+    measured: Run | None = None,
+    others: Sequence[Section] = (),
 ) -> None:
-    """Write the page of a simulated trip of the model called `name`, completely or not at all."""
+    """Write the page of a simulated trip of the model called `name`, with other sections, completely or not at all."""
     car = trip.table["car_position"]
     lead = _LEAD.format(distance=float(car.max() - car.min()), height=model.shaft.height, mass=model.sheave.mass_per_rope)
     moving = Animation("trip", animation_data(model, recording.frames, recording.interval, traces(trip, measured)), _CAPTION)
@@ -36,6 +43,7 @@ def save_trip_page(
         Section("motion", "Animation", [moving]),
         Section("figures", "Key figures", [Table(("", ""), summary(trip))]),
         Section("curves", "Plots", [Picture("curves", draw_trip(trip, measured))]),
+        *others,
         Section("model", "Model parameters", [_model(model)]),
     ]
     source = "simulated with the measured motion of the car" if measured else "simulated"
