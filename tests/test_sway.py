@@ -66,6 +66,19 @@ def test_the_command_writes_map_page_and_floors_to_avoid(tmp_path: Path) -> None
     assert "parking floors to avoid" in (tmp_path / "s.html").read_text(encoding="utf-8")
 
 
+def test_a_floor_has_the_swing_of_its_own_resonance_also_between_the_periods_of_the_map() -> None:
+    """Whose steps are wider than a resonance of a rope with little damping."""
+    parked = parked_rope(TOWER, 25.0)
+    own = 2.0 * np.pi / float(parked.rates[0])
+    options = comprope_system.SwayOptions(0.01, 1.03 * own, floors=3, positions=2, periods=4, damping=0.001, verify=0)
+    found = comprope_system.sway(TOWER, options)
+    height, swing = found.floors[1]
+    assert height == 25.0
+    assert swing == pytest.approx(parked.amplitudes(options.sway, own).max(), rel=1e-3)
+    at = int(np.argmin(np.abs(found.cars - 25.0)))
+    assert swing > 1.2 * found.swing[:, at, np.abs(found.periods / options.period - 1.0) < 0.11].max()
+
+
 def test_bad_values_are_told_all_at_once() -> None:
     """One line each."""
     with pytest.raises(InputError) as refused:

@@ -37,7 +37,10 @@ class Verified:
 
 @dataclass(frozen=True, repr=False)
 class SwayResult(Result):
-    """Swing (2, cars, periods) [m] of car's and counterweight's side at car positions [m] and periods of the building [s]."""
+    """Swing (2, cars, periods) [m] of car's and counterweight's side at car positions [m] and periods of the building [s].
+
+    `floors` are pairs of height [m] and largest swing [m] there, in the period of the building that was asked for, or any.
+    """
 
     model_name: str
     model: RopeModel
@@ -45,17 +48,8 @@ class SwayResult(Result):
     cars: Floats
     periods: Floats
     swing: Floats
+    floors: tuple[tuple[float, float], ...]
     verified: tuple[Verified, ...]
-
-    @property
-    def floors(self) -> list[tuple[float, float]]:
-        """Height of each floor [m] and the largest swing [m] there, in a period of the building that was asked for, or any."""
-        kept, period = np.ones(len(self.periods), bool), self.options.period
-        if period is not None:
-            kept = np.abs(self.periods / period - 1.0) <= self.options.spread + 1e-6
-        heights = np.linspace(0.0, self.model.shaft.height, self.options.floors)
-        at = [int(np.argmin(np.abs(self.cars - height))) for height in heights]
-        return [(float(height), float(self.swing[:, k][:, kept].max())) for height, k in zip(heights, at, strict=True)]
 
     @property
     def avoided(self) -> list[float]:

@@ -10,10 +10,11 @@ from ..presets.inputs import ModelInput, model_name, read_model, require_still_b
 from ..presets.overrides import Changes
 from .full_simulation import simulated_amplitudes
 from .options import SwayOptions
-from .parked_response import Sway, parked_rope
+from .parked_response import ParkedRope, Sway, parked_rope
 from .result import SwayResult, Verified
 
 __all__ = ["SwayOptions", "sway"]
+SAME = 1e-5  # m or s, up to which heights and periods are equal
 BELOW, ABOVE = 0.25, 1.4  # of the rope's shortest and longest first period: the periods of the map
 
 
@@ -28,21 +29,37 @@ def sway(
     options = options or SwayOptions()
     given = require_still_building(read_model(model, changes), "the map of sway")
     cars, periods = _grid(given, options)
-    found = np.zeros((2, len(cars), len(periods)))
+    found, heights, floors = np.zeros((2, len(cars), len(periods))), _floors(given, options), list[tuple[float, float]]()
     for i, car in enumerate(cars):
         parked = parked_rope(given, float(car))
         found[:, i] = np.array([parked.amplitudes(options.sway, float(period)) for period in periods]).T
+        if np.abs(heights - car).min() < SAME:
+            floors.append((float(car), _floor_swing(parked, options, periods, found[:, i])))
         progress("positions of the car", i + 1, len(cars))
     verified = tuple(_verified(given, options, cars, periods, found, progress))
-    return SwayResult(model_name(model), given, options, cars, periods, found, verified)
+    return SwayResult(model_name(model), given, options, cars, periods, found, tuple(floors), verified)
+
+
+def _floors(model: RopeModel, options: SwayOptions) -> np.ndarray:
+    """Heights of the floors [m]."""
+    return np.linspace(0.0, model.shaft.height, options.floors)
+
+
+def _floor_swing(parked: ParkedRope, options: SwayOptions, periods: np.ndarray, swing: np.ndarray) -> float:
+    """Largest swing [m] in the building's periods that count, the rope's own among them, as these are narrow."""
+    low, high = periods[0], periods[-1]
+    if options.period is not None:
+        low, high = options.period * (1.0 - options.spread), options.period * (1.0 + options.spread)
+    kept, own = (periods >= low - SAME) & (periods <= high + SAME), 2.0 * np.pi / parked.rates
+    resonant = [parked.amplitudes(options.sway, float(one)).max() for one in own if low <= one <= high]
+    return float(max([swing[:, kept].max(), *resonant]))
 
 
 def _grid(model: RopeModel, options: SwayOptions) -> tuple[np.ndarray, np.ndarray]:
     """Car positions [m], floors among them, and periods [s] of the map."""
     height = model.shaft.height
-    floors = np.linspace(0.0, height, options.floors)
     between = np.linspace(0.0, height, options.positions)
-    cars = np.unique(np.concatenate([floors, between]).round(6))
+    cars = np.unique(np.concatenate([_floors(model, options), between]).round(6))
     firsts = [side_string(model, at, "counterweight").period() for at in (0.0, height)]
     periods = np.geomspace(BELOW * max(firsts), ABOVE * max(firsts), options.periods)
     if options.period is not None:
