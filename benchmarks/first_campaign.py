@@ -11,6 +11,7 @@ each run), `check`, `improve --fmu`; the FMUs are then run by fmpy. --keep write
 import argparse
 import os
 import pty
+import resource
 import shutil
 import subprocess
 import sys
@@ -86,11 +87,11 @@ class Steps:
         self.folder = folder
         self.environment = os.environ | {"COMPROPE_CACHE": str(folder / "cache")}
         self.environment.pop("PYTHONPATH", None)
-        self.rows: list[tuple[str, float, str]] = []
+        self.rows: list[tuple[str, float, float]] = []
 
     def call(self, title: str, words: Sequence[str | Path], answers: str | None = None) -> str:
         """Call a command, which must succeed; `answers` are typed on its terminal. Returns its output."""
-        begin, terminal = time.perf_counter(), None
+        begin, used, terminal = time.perf_counter(), _processor(), None
         if answers is not None:
             parent, terminal = pty.openpty()
             os.write(parent, answers.encode())
@@ -103,16 +104,22 @@ class Steps:
             said = log.read()
         if status:
             sys.exit(f"{title}: exit status {status}\n{said}")
-        last = next((line for line in said.splitlines() if line.strip()), "") if answers is None else ""
-        self.rows.append((title, (time.perf_counter() - begin) / 60.0, last))
-        print(f"{title}: {self.rows[-1][1]:.2f} min", flush=True)
+        self.rows.append((title, (time.perf_counter() - begin) / 60.0, _processor() - used))
+        print(f"{title}: {self.rows[-1][1]:.2f} min, {self.rows[-1][2]:.0f} s of processors", flush=True)
         return said
 
     def table(self) -> str:
-        """Minutes of each step and of all."""
-        rows = [f"| {title} | {minutes:.2f} |" for title, minutes, _ in self.rows]
-        whole = sum(minutes for _, minutes, _ in self.rows)
-        return "\n".join(["| step | minutes |", "|---|---|", *rows, f"| together | {whole:.2f} |"])
+        """Minutes and processor seconds of each step and of all."""
+        rows = [f"| {title} | {minutes:.2f} | {used:.0f} |" for title, minutes, used in self.rows]
+        minutes, used = (sum(row[k] for row in self.rows) for k in (1, 2))
+        head = ["| step | minutes | processor s |", "|---|---|---|"]
+        return "\n".join([*head, *rows, f"| together | {minutes:.2f} | {used:.0f} |"])
+
+
+def _processor() -> float:
+    """Processor seconds of all commands that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def journey(campaign: Path, folder: Path) -> None:

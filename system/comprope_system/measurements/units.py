@@ -22,7 +22,7 @@ MOTIONS: dict[str, dict[str, float]] = {
 TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "d": 86400.0}
 ELECTRICAL = ("V", "mV", "mA", "A", "counts", "1", "%")
 _SPELLINGS = {
-    "um": "µm μm micron microns mikrometer micrometer micrometre",
+    "um": "µm μm Âµm micron microns mikrometer micrometer micrometre",
     "mm": "millimeter millimetre millimeters millimetres",
     "cm": "zentimeter centimeter centimetre",
     "m": "meter metre meters metres",
