@@ -128,6 +128,15 @@ def test_a_guess_is_left_out_unless_somebody_is_asked(tmp_path, files):
     assert asked.columns["pit_load"].quantity == "sheave_force"
 
 
+def test_units_that_no_file_states_are_said_with_the_size_of_the_motion(tmp_path, files):
+    names = {"Laser GG unten [mm]": "cw_low", "Laser Kabine [mm]": "car_low"}
+    table = pd.read_csv(files[0]).rename(columns=names)
+    table.assign(cw_low=0.1 * table["cw_low"]).to_csv(files[0], index=False)
+    result = comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL)
+    assert any("no file states a unit" in one and "cw_low moves by 1" in one for one in result.remarks), result.remarks
+    assert any('cw_low: noise and motion are about 0.1 times' in one and 'unit = "cm"' in one for one in result.check.remarks)
+
+
 def test_a_second_column_in_the_same_file_is_not_taken_for_the_first(tmp_path, files):
     table = pd.read_csv(files[0])
     table.assign(cw_low=table["Laser GG unten [mm]"]).to_csv(files[0], index=False)
