@@ -113,3 +113,14 @@ def test_outliers_are_six_deviations_from_the_running_median() -> None:
     assert np.flatnonzero(outliers(value, 1.0)).tolist() == [50, 80]
     ramp = 10.0 * np.arange(101.0)
     assert not outliers(ramp, 1.0)[5:-5].any()  # a steady motion is none
+
+
+def test_a_prediction_that_is_out_of_view_too_early_is_held_where_it_was_last_seen() -> None:
+    """As zeros, samples that were measured while the model's end has passed already would be off by the whole displacement."""
+    one, value = whiten_channel(run(), channel(), swing(), ALL, WHITE), swing(noise=0.0)
+    assert one is not None
+    gone = np.where(TIME < 5.7, value, np.nan)
+    assert np.array_equal(one.means(gone)[:-8], one.means(value)[:-8])
+    assert one.means(gone)[-1] == pytest.approx(value[TIME < 5.7][-1], rel=1e-12)
+    assert abs(one.means(gone)[-1]) > 0.01
+    assert not one.means(np.full(TIME.size, np.nan)).any()

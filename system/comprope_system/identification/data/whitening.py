@@ -46,13 +46,25 @@ class WhitenedChannel:
     discrepancy: float
 
     def means(self, values: Floats) -> Floats:
-        """Mean (bins,) of `values` (samples,) in each bin."""
+        """Mean (bins,) of `values` (samples,) in each bin; where the rope is out of view, its nearest value in view."""
         used = self.bin_of >= 0
-        return np.bincount(self.bin_of[used], np.nan_to_num(values[used]), len(self.count)) / self.count
+        return np.bincount(self.bin_of[used], _held(values)[used], len(self.count)) / self.count
 
     def whiten(self, means: Floats) -> Floats:
         """Means (bins,) or (bins, k) scaled so that noise and discrepancy are white with unit variance."""
         return np.asarray(solve_triangular(self.factor, means, lower=True))
+
+
+def _held(values: Floats) -> Floats:
+    """Values (n,) with those that are not known replaced by the nearest known one; zeros where none is.
+
+    An effect that shifts an end's passage of a sensor hides samples that were measured; as zeros they would be off by the whole
+    displacement.
+    """
+    known = np.isfinite(values)
+    if known.all():
+        return values
+    return np.interp(np.arange(len(values)), np.flatnonzero(known), values[known]) if known.any() else np.zeros(len(values))
 
 
 def whiten_channel(
