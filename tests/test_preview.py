@@ -8,6 +8,7 @@ from comprope.rope.effects import REGISTRY
 from comprope_system.identification.comparison.compare import compare
 from comprope_system.identification.comparison.nrmse import nrmse
 from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.estimation.linearisation import instrument_slope
 from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect, instrument_hypotheses
 from comprope_system.identification.prediction.parameter_point import ParameterPoint
 from comprope_system.identification.preview.effect_preview import preview_effect
@@ -28,6 +29,17 @@ LINES = NodeLines(((0.0, 1.0, 2.0, 3.5), (-1.0, 0.0, 1.0, 2.0)), (2, 1))
 
 def hypothesis(name):
     return hypotheses_of_effect(REGISTRY[name], ())[0]
+
+
+def test_the_derivative_of_a_fault_of_size_zero_is_found_without_a_division_by_it(campaign):
+    run, column = campaign.runs[0], "cw_low"
+    value = np.sin(run.time)
+    for fault in instrument_hypotheses(campaign.channels):
+        ((key, amount),) = fault.parameters([0.0]).items()
+        if key.endswith(column) and fault.follows_from_predictions:
+            with np.errstate(all="raise"):
+                slope = instrument_slope(key, ParameterPoint(effects={key: amount}), run, value, campaign.channels)
+            assert np.isfinite(slope).all() and np.ptp(slope) > 0.0
 
 
 def previewed(campaign, executor, one, coefficients):

@@ -152,12 +152,12 @@ def instrument_slope(
 ) -> Floats:
     """Derivative (n,) of the predicted `value` (n,) of a channel by the parameter `key` of its instrument, relative to rest."""
     _, effect, column = key.split(".", 2)
-    slope = {
-        "sensor_gain": value / here.effects.get(key, 1.0),
-        "sensor_offset": np.ones_like(value),
-        "sensor_drift": run.time - run.time[0],
-        "sensor_delay": _delay_derivative(run, value),
-    }[effect]
+    if effect == "sensor_gain":
+        slope = value / here.effects.get(key, 1.0)
+    elif effect == "sensor_delay":
+        slope = _delay_derivative(run, value)
+    else:
+        slope = {"sensor_offset": np.ones_like(value), "sensor_drift": run.time - run.time[0]}[effect]
     return relative_to_rest({column: slope}, run, channels)[column]
 
 
