@@ -124,3 +124,16 @@ def test_a_prediction_that_is_out_of_view_too_early_is_held_where_it_was_last_se
     assert one.means(gone)[-1] == pytest.approx(value[TIME < 5.7][-1], rel=1e-12)
     assert abs(one.means(gone)[-1]) > 0.01
     assert not one.means(np.full(TIME.size, np.nan)).any()
+
+
+def test_a_swing_in_a_long_record_is_not_averaged_away() -> None:
+    time = np.arange(0.0, 1800.0, 0.05)
+    trip = Trip((jerk_limited(2.0, 40.0, 600.0, np.array([1.0, 2.0, 1.0, 14.0, 1.0, 2.0, 1.0])),), 0.0, "profile")
+    long = Run("a.csv", "fit", {}, time, trip.position(time), trip, trip.mirrored(50.0), {})
+    swinging = (time > 600.0) & (time < 630.0)
+    value = np.where(swinging, 0.02 * np.sin(2.0 * np.pi * time), 0.0) + NOISE * np.random.default_rng(1).normal(size=time.size)
+    found = whiten_channel(long, channel(), value, np.ones(time.size, bool), WHITE)
+    assert found is not None and len(found.count) <= 500
+    inside = np.unique(found.bin_of[swinging & (found.bin_of >= 0)])
+    assert len(inside) == pytest.approx(150, abs=2)
+    assert np.std(found.data[inside]) == pytest.approx(0.02 * 0.5**0.5, rel=0.1)

@@ -78,8 +78,8 @@ def whiten_channel(
     good[good] = ~outliers(value[good], noise.deviation)
     if good.sum() < WHITENING.min_samples or np.ptp(value[good]) == 0.0:
         return None
-    width = max(WHITENING.bin_width, (run.time[-1] - run.time[0]) / WHITENING.max_bins)
-    index = ((run.time - run.time[0]) / width).astype(np.int64)
+    index, width = _bins(run, good)
+    good &= index >= 0
     used, bin_of_good = np.unique(index[good], return_inverse=True)
     bin_of = np.full(len(run.time), -1, np.int64)
     bin_of[good] = bin_of_good
@@ -96,6 +96,26 @@ def whiten_channel(
     data = np.bincount(bin_of_good, value[good]) / count
     factor = cholesky(covariance, lower=True)
     return WhitenedChannel(run.file, channel.column, bin_of, count, factor, data, noise.deviation, discrepancy)
+
+
+def _bins(run: Run, good: NDArray[np.bool_]) -> tuple[NDArray[np.int64], float]:
+    """The bin of each sample (samples,), -1 for none, and their width [s].
+
+    They are no wider than a swing allows. Of a longer record, some are left out: those at rest first, and evenly of the others.
+    """
+    duration = float(run.time[-1] - run.time[0])
+    width = min(max(WHITENING.bin_width, duration / WHITENING.max_bins), WHITENING.widest_bin)
+    index = ((run.time - run.time[0]) / width).astype(np.int64)
+    used = np.unique(index[good])
+    if len(used) <= WHITENING.max_bins:
+        return index, width
+    middle = run.time[0] + (used + 0.5) * width
+    moves = middle[run.trip.velocity(middle) != 0.0]
+    last = np.searchsorted(moves, middle, side="right") - 1
+    swings = (last >= 0) & (middle - moves[last] <= WHITENING.swing_time) if len(moves) else np.ones(len(used), bool)
+    of = used[swings]
+    kept = of[np.unique(np.linspace(0, len(of) - 1, min(len(of), WHITENING.max_bins)).astype(int))]
+    return np.where(np.isin(index, kept), index, -1), width
 
 
 def stack(whitened_channels: list[WhitenedChannel], values: Mapping[tuple[str, str], Floats]) -> Floats:

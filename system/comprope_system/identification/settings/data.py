@@ -20,6 +20,10 @@ class Whitening:
     """Averaging of samples in bins, and the covariance of the bins."""
 
     bin_width: float = setting(0.05, "s", "least width of a bin; a tenth of the period of a 2 Hz oscillation", JUDGEMENT)
+    widest_bin: float = setting(
+        0.2, "s", "most width of a bin: a swing of 1 Hz keeps 94 % of its size; of a longer record bins are left out", JUDGEMENT
+    )
+    swing_time: float = setting(10.0, "s", "time after a motion whose bins are left out of a long record last", JUDGEMENT)
     max_bins: int = setting(500, "1", "most bins of a channel in a run; the covariance is factorised in O(bins^3)", JUDGEMENT)
     min_samples: int = setting(20, "1", "fewest usable samples of a channel in a run; with fewer it is left out", JUDGEMENT)
     discrepancy_time: float = setting(
