@@ -9,27 +9,22 @@ from ..settings import PLAUSIBILITY
 from .channel_noise import spread_of_steps
 from .runs import Channel, Run
 
-NOISE_ALIKE = 2.0  # instruments of one kind have a noise that differs by no more than this factor
-MOTION_ALIKE = 6.0  # the rope's motion differs from height to height by no more than this factor
-ENOUGH = 2  # lasers beyond which the median is that of most of them
-MOST = 99.0  # percentile that is the size of a motion
-
 
 def other_units(run: Run, channels: Mapping[str, Channel]) -> Iterator[str]:
     """Sentences about lateral channels of a run, each with the unit with which it would agree with the others."""
     sizes = {column: found for column, one in channels.items() if (found := _sizes(run, one)) is not None}
     for column, own in sizes.items():
         # The median is that of the others, whichever of three or more is off; of two, each is compared with the other.
-        among = [size for name, size in sizes.items() if len(sizes) > ENOUGH or name != column]
+        among = [size for name, size in sizes.items() if len(sizes) >= PLAUSIBILITY.enough_lasers or name != column]
         if not among:
             return
         noise, motion = np.array(own) / np.median(among, axis=0)
-        if _within(noise, NOISE_ALIKE) or _within(motion, 0.5 * MOTION_ALIKE):
+        if _within(noise, PLAUSIBILITY.alike_noise) or _within(motion, 0.5 * PLAUSIBILITY.alike_motion):
             continue
         channel = channels[column]
         for unit, scale in UNITS[channel.quantity].items():
             factor = scale / channel.scale  # by which noise and motion are larger in that unit
-            if _within(factor * noise, NOISE_ALIKE) and _within(factor * motion, MOTION_ALIKE):
+            if _within(factor * noise, PLAUSIBILITY.alike_noise) and _within(factor * motion, PLAUSIBILITY.alike_motion):
                 size = f"noise and motion are about {1.0 / factor:.3g} times those of the other lasers"
                 yield f'{column}: {size}: if it is in {unit}, write unit = "{unit}" for this channel'
                 break
@@ -43,7 +38,8 @@ def _sizes(run: Run, channel: Channel) -> tuple[float, float] | None:
     rest = value[run.rest & np.isfinite(value)]
     if len(rest) < PLAUSIBILITY.min_samples:
         return None
-    noise, motion = spread_of_steps(rest), float(np.nanpercentile(np.abs(value - np.nanmedian(value)), MOST))
+    noise, distance = spread_of_steps(rest), np.abs(value - np.nanmedian(value))
+    motion = float(np.nanpercentile(distance, PLAUSIBILITY.motion_percentile))
     return (noise, motion) if noise > 0.0 and motion > 0.0 else None
 
 

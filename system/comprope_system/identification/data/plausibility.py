@@ -20,8 +20,6 @@ from .runs import Channel, Run
 
 Floats = NDArray[np.float64]
 
-SAMPLES_OF_DELAY = 5000  # that determine a delay; a longer record is thinned to them
-
 
 def remarks_on(run: Run, model: RopeModel, channels: Mapping[str, Channel]) -> list[str]:
     """Sentences about channels that contradict the motion of the car, their own stated noise or the size of an elevator."""
@@ -145,7 +143,7 @@ def _follower(run: Run, model: RopeModel, name: str) -> str | None:
 def _delay(run: Run, model: RopeModel, value: Floats) -> float:
     """The delay [s] at which a channel is closest to the rolling speed."""
     known = np.flatnonzero(np.isfinite(value))
-    known = known[:: max(len(known) // SAMPLES_OF_DELAY, 1)]
+    known = known[:: max(len(known) // PLAUSIBILITY.delay_samples, 1)]
     delays = np.arange(-PLAUSIBILITY.max_delay, PLAUSIBILITY.max_delay + 1e-9, PLAUSIBILITY.delay_step)
     misfit = [float(np.mean((value[known] - rolling_speed(run, model, run.time[known] - late)) ** 2)) for late in delays]
     return float(delays[int(np.argmin(misfit))])

@@ -111,6 +111,7 @@ class Plausibility:
     gain: float = setting(1.3, "1", "ratio to the rolling speed, or its inverse, from which on a unit is wrong", JUDGEMENT)
     delay: float = setting(0.06, "s", "delay against the car that is told; the sheave follows within less", JUDGEMENT)
     max_delay: float = setting(2.0, "s", "largest delay that is looked for", JUDGEMENT)
+    delay_samples: int = setting(5000, "1", "samples that determine a delay; a longer record is thinned to them", JUDGEMENT)
     delay_step: float = setting(0.01, "s", "resolution of the delay", JUDGEMENT)
     turning_at_rest: float = setting(
         0.02, "1", "angular velocity of a sheave at rest, as a share of its largest, that is told", JUDGEMENT
@@ -129,6 +130,10 @@ class Plausibility:
     lateral: float = setting(1.5, "m", "lateral displacement that no shaft has room for", JUDGEMENT)
     axle: float = setting(0.5, "m", "displacement of the sheave that no guide has room for, in a pit that is smaller", JUDGEMENT)
     tension: float = setting(1.5, "1", "ratio of a tension at rest to the weight, or its inverse, that is told", JUDGEMENT)
+    alike_noise: float = setting(2.0, "1", "ratio up to which the noise of lasers is that of one kind of instrument", JUDGEMENT)
+    alike_motion: float = setting(6.0, "1", "ratio up to which the rope's motion differs from one laser to the others", JUDGEMENT)
+    motion_percentile: float = setting(99.0, "%", "percentile of distances from the median that is a motion's size", JUDGEMENT)
+    enough_lasers: int = setting(3, "1", "lasers from which on the median of all is that of those that agree", JUDGEMENT)
     noise: float = setting(5.0, "1", "ratio of noise at rest to the stated one, or its inverse, that is told", JUDGEMENT)
 
 
