@@ -12,12 +12,16 @@ import pandas as pd
 import pytest
 from typer.main import get_command
 
+import comprope.effect
+import comprope_system
 from comprope.rope.effects import INSTRUMENT, REGISTRY
 from comprope_system import cli
 
+from .browser_pages import needs_chromium, opened
+
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
-PAGES = sorted([*DOCS.glob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"])
+PAGES = sorted([*DOCS.glob("**/*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"])
 
 
 def anchors(page: Path) -> set[str]:
@@ -64,6 +68,44 @@ def test_commands_and_options_that_pages_name_exist():
     assert {"simulate", "compare", "diagnose", "add", "improve", "tune"} <= set(named)
     for command, options in named.items():
         assert options <= known[command], command
+
+
+# -- the site ----------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The pages as a reader builds them; a link or an anchor that leads nowhere, and any other warning, stops it."""
+    pytest.importorskip("mkdocs")
+    out = tmp_path_factory.mktemp("site")
+    environment = os.environ | {"NO_MKDOCS_2_WARNING": "1"}  # an advertisement, which is no warning of the build
+    command = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict", "--site-dir", out]
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0 and not done.stderr, done.stdout + done.stderr
+    return out
+
+
+def test_the_site_has_every_public_name_of_the_python_interfaces(site):
+    for module, page in ((comprope_system, "comprope_system.html"), (comprope.effect, "effect.html")):
+        text = (site / "api" / page).read_text("utf-8")
+        headings = set(re.findall(r'<h[23] id="([\w.]+)"', text))
+        assert {f"{module.__name__}.{name}" for name in module.__all__} <= headings
+
+
+def test_the_site_has_no_markdown_left_in_its_text(site):
+    for page in site.rglob("*.html"):
+        text = re.sub(r"<(pre|code)\b.*?</\1>", "", page.read_text("utf-8"), flags=re.DOTALL)
+        assert re.findall(r"\n\|.*\||\n(?:- |\d\. |#+ |:::).*|.*\]\(.*|.*\*\*\w.*", text) == [], page.name
+
+
+@needs_chromium
+@pytest.mark.parametrize("width", [1400, 700])
+def test_pages_of_the_site_fit_the_window_and_load_nothing_from_elsewhere(site, width):
+    with opened((site / "index.html").as_uri(), width) as page:
+        for name in ("index", "measurements", "theory", "reference", "api/comprope_system", "benchmarks/RESULTS"):
+            page.goto((site / f"{name}.html").as_uri())
+            assert page.locator("h1").count() == 1, name
+            assert page.evaluate("document.documentElement.scrollWidth") <= width, name
 
 
 # -- scripts -----------------------------------------------------------------------------------------
