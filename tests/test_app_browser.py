@@ -80,11 +80,10 @@ def test_from_dropped_files_to_a_comparison_and_a_diagnosis_that_outlives_a_relo
         dropped(page, raw)
         rows = {row.locator("td").first.text_content(): row for row in page.locator("#columns tbody tr").all()}
         assert set(rows) == {"cw_low", "car_low", "axle", "turning"}
-        page.locator("#sign-0").select_option("-1")
         page.get_by_label("mass of the sheave in down_light.csv").fill("70")
         page.get_by_label("mass of the sheave in down_light.csv").press("Tab")
         expect(page.get_by_label("inertia of the sheave in down_light.csv")).to_have_value("5.6", timeout=PATIENCE)
-        page.locator("#sign-0").select_option("1")
+        the_last_correction_is_undone(page)
         expect(page.locator("#save")).to_be_enabled(timeout=PATIENCE)
         page.wait_for_timeout(400)  # a correction is sent a moment after it is made
         expect(page.locator("#save")).to_be_enabled(timeout=PATIENCE)
@@ -112,6 +111,21 @@ def test_from_dropped_files_to_a_comparison_and_a_diagnosis_that_outlives_a_relo
         expect(page.locator("#job")).to_contain_text("The diagnosis", timeout=PATIENCE)
         page.get_by_role("button", name="Cancel").click()
         expect(page.locator("#job")).to_contain_text("cancelled")
+
+
+def the_last_correction_is_undone(page):
+    undo = page.get_by_role("button", name="Undo")
+    page.locator("#sign-0").select_option("-1")
+    page.get_by_label("mass of the sheave in down_light.csv").fill("60")
+    page.get_by_label("mass of the sheave in down_light.csv").press("Tab")
+    expect(page.get_by_label("inertia of the sheave in down_light.csv")).to_have_value("4.8", timeout=PATIENCE)
+    undo.click()
+    expect(page.get_by_label("inertia of the sheave in down_light.csv")).to_have_value("5.6", timeout=PATIENCE)
+    expect(page.locator("#sign-0")).to_have_value("-1")
+    undo.click()
+    expect(page.locator("#sign-0")).to_have_value("1", timeout=PATIENCE)
+    expect(page.get_by_label("mass of the sheave in down_light.csv")).to_have_value("70")
+    expect(undo).to_be_enabled()  # the first correction, of the mass, can be undone as well
 
 
 def steps_obey_the_keyboard_and_fit_a_narrow_window(page):

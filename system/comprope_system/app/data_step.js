@@ -2,7 +2,8 @@
 import { ask, find, make, showPage, tell } from "./elements.js";
 
 const LEFT_OUT = "left out", DELAY = 250; // ms after a correction until the files are read again
-const stated = { columns: {}, roles: {}, changes: {}, car: "", model: "" };
+let stated = { columns: {}, roles: {}, changes: {}, car: "", model: "" };
+const earlier = []; // `stated` before each correction, the latest last
 let state = null, found = null, waiting = null, reads = 0, known = "", uploading = false;
 
 export function showData(now) {
@@ -28,7 +29,7 @@ export function showData(now) {
 
 function models(presets) {
   for (const name of presets) make(find("#model"), "option", {}, name);
-  find("#model").addEventListener("change", (event) => { stated.model = event.target.value; describe(); });
+  find("#model").addEventListener("change", (event) => correct(() => { stated.model = event.target.value; }));
 }
 
 // -- files ------------------------------------------------------------------------------------------
@@ -47,7 +48,22 @@ drop.addEventListener("drop", (event) => { event.preventDefault(); upload([...ev
 find("#files").addEventListener("change", (event) => { upload([...event.target.files]); event.target.value = ""; });
 
 // -- description ------------------------------------------------------------------------------------
-function later() { clearTimeout(waiting); waiting = setTimeout(describe, DELAY); }
+// Makes a correction that can be undone; the files are read again a moment later.
+function correct(act) {
+  earlier.push(structuredClone(stated));
+  act();
+  find("#undo").disabled = false;
+  clearTimeout(waiting);
+  waiting = setTimeout(describe, DELAY);
+}
+
+find("#undo").addEventListener("click", () => {
+  stated = earlier.pop();
+  find("#undo").disabled = earlier.length === 0;
+  const models = find("#model");
+  models.value = stated.model || models.options[0].value;
+  describe();
+});
 
 async function describe() {
   clearTimeout(waiting);
@@ -81,7 +97,7 @@ function render() {
 function select(cell, id, label, options, chosen, act) {
   const box = make(cell, "select", { id, "aria-label": label });
   for (const [value, text] of options) make(box, "option", { value }, text).selected = value === chosen;
-  box.addEventListener("change", () => { act(box.value); later(); });
+  box.addEventListener("change", () => correct(() => act(box.value)));
 }
 
 function carRow() {
@@ -135,7 +151,7 @@ function runTable() {
       const value = stated.changes[file]?.[`sheave.${key}`] ?? found.sheave?.[key] ?? "";
       const input = make(make(row, "td"), "input", { class: "number", id: `${key}-${k}`, "aria-label": `${key} of the sheave in ${file}`, inputmode: "decimal" });
       input.value = value === "" ? "" : `${+(+value).toPrecision(6)}`;
-      input.addEventListener("change", () => { sheave(file, key, +input.value.replace(",", ".")); later(); });
+      input.addEventListener("change", () => correct(() => sheave(file, key, +input.value.replace(",", "."))));
     }
   });
 }
