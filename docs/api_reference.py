@@ -22,8 +22,10 @@ all steps, 0 where it is unknown. `executor` is any executor of `concurrent.futu
 In JSON, `misfit_per_datum`, `chi_square_per_sample`, `clues`, `bought` and `pruned` are older names of `reduced_chi_square`,
 `residual_correlations`, `error_reductions` and `removed`; both are written in this version.
 """
-NAMES = ("simulate", "modes", "new", "check", "compare", "diagnose", "add", "improve", "tune", "design")
-OPTIONS = ("CarMotion", "Stop", "TuningOptions", "DesignOptions", "BuildingSway")
+NAMES = (
+    "simulate", "modes", "new", "check", "compare", "diagnose", "add", "improve", "tune", "design", "building", "sway", "fmu",
+)  # fmt: skip
+OPTIONS = ("CarMotion", "Stop", "TuningOptions", "DesignOptions", "BuildingSway", "RecordOptions", "SwayOptions")
 
 
 def text(table: Callable[[Iterable[str], Iterable[Iterable[str]]], str]) -> str:

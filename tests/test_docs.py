@@ -33,6 +33,7 @@ def anchors(page: Path) -> set[str]:
 def test_the_reference_is_what_the_declarations_say():
     text = runpy.run_path(str(DOCS / "build_reference.py"))["text"]()
     assert (DOCS / "reference.md").read_text("utf-8") == text, "run `python docs/build_reference.py`"
+    assert [name for name in comprope_system.__all__ if not re.search(rf"^### `{name}\b", text, re.MULTILINE)] == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
