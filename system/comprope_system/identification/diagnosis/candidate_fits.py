@@ -71,10 +71,10 @@ def fit_candidates(context: FitContext, screened: Sequence[ScreenedHypothesis]) 
     for k, one in enumerate(screened[: CANDIDATES.max_fits]):
         if _improvement(found[k], baseline) > least and _may_win(found[k], baseline, found):
             found[k] = fit_on_full_model(context, one, found)
-    leader = _leader(context, found)
-    while not found[leader].refined and found[leader].fitted.penalised_chi_square < baseline.penalised_chi_square - worthwhile:
+    leader, gain = _leader(context, found)
+    while not found[leader].refined and gain > 0.0:
         found[leader] = fit_on_full_model(context, screened[leader], found)
-        leader = _leader(context, found)
+        leader, gain = _leader(context, found)
     if found[leader].refined:
         _fit_indistinguishable(context, screened, found, leader)
     return found
@@ -215,7 +215,14 @@ def _may_win(one: CandidateFit, baseline: FitResult, found: Sequence[CandidateFi
     return at_best < CANDIDATES.near_factor * best
 
 
-def _leader(context: FitContext, found: Sequence[CandidateFit]) -> int:
-    """Number of the candidate with the highest score."""
-    noise = noise_level(context, found)
-    return max(range(len(found)), key=lambda k: found[k].log_score(noise))
+def _leader(context: FitContext, found: Sequence[CandidateFit]) -> tuple[int, float]:
+    """Number of the candidate with the highest score, and its score above that of the plant alone.
+
+    Fits that are only predicted tell the noise as well: what is small shows in noise that is known with the effect.
+    """
+    baseline = context.baseline
+    noise = NoiseLevel.of_fits(
+        len(context.problem.data), (baseline.chi_square, *(one.fitted.chi_square for one in found))
+    )
+    leader = max(range(len(found)), key=lambda k: found[k].log_score(noise))
+    return leader, found[leader].log_score(noise) - log_score(baseline.chi_square, noise, baseline.prior_cost)

@@ -1,13 +1,14 @@
 """Score of a model: log likelihood, less a penalty for its complexity and the cost of its plant parameters under their priors.
 
-What a fit leaves of N whitened data is noise, N s^2, and a discrepancy E s^2 of the model. The noise is another one in each
-datum, so that each is evidence; the discrepancy is the same in thousands of data and counts as n = `SCORE.effective_samples`
-amplitudes of unknown size. The likelihood of chi^2 = s^2 (N + E) is then that of Student's t distribution,
+What a fit leaves of N whitened data is noise, N s^2, and a discrepancy of the model. The noise is another one in each datum, so
+that each is evidence; the discrepancy is the same in thousands of data and counts as n = `SCORE.effective_samples` amplitudes of
+unknown size. The likelihood of chi^2 = s^2 (N + m N + E) is then that of Student's t distribution,
 
     log L = -n/2 log(1 + E/n):
 
-half of chi^2 / s^2 where noise is all that is left, n/2 log(chi^2) where it is little. The least chi^2 of the fits to be
-compared tells s^2. With the penalty of about half the logarithm of n for each parameter it is a BIC (Schwarz 1978).
+half of chi^2 / s^2 where E is small, n/2 log(chi^2) where it is most of chi^2. The share m = `SCORE.model_error` is what mesh,
+time step and recovered trip err by, which an effect that is not there may imitate. The least chi^2 of the fits to be compared
+tells s^2. With the penalty of about half the logarithm of n for each parameter it is a BIC (Schwarz 1978).
 """
 
 from collections.abc import Iterable, Sequence
@@ -35,8 +36,13 @@ class NoiseLevel:
         return cls(count, min([SCORE.noise_limit, *(one / count for one in chi_squares)]))
 
     def discrepancy(self, chi_square: float) -> float:
-        """Discrepancy E in what a fit leaves, in units of the noise of one datum."""
-        return max(chi_square / self.reduced - self.count, 0.0)
+        """Discrepancy E in what a fit leaves beyond the model's own error, in units of the noise of one datum."""
+        return max(chi_square - self.explained, 0.0) / self.reduced
+
+    @property
+    def explained(self) -> float:
+        """Chi-square that noise and the model's own error explain."""
+        return (1.0 + SCORE.model_error) * self.count * self.reduced
 
 
 def log_score(chi_square: float, noise: NoiseLevel, penalty: float = 0.0) -> float:
@@ -46,8 +52,8 @@ def log_score(chi_square: float, noise: NoiseLevel, penalty: float = 0.0) -> flo
 
 def least_noticed(chi_square: float, noise: NoiseLevel, cost: float) -> float:
     """Least increase of chi-square above that of the best fit that lowers the log score by `cost`."""
-    discrepancy = SCORE.effective_samples + noise.discrepancy(chi_square)
-    return noise.reduced * discrepancy * (exp(2.0 * cost / SCORE.effective_samples) - 1.0)
+    raised = (SCORE.effective_samples + noise.discrepancy(chi_square)) * exp(2.0 * cost / SCORE.effective_samples)
+    return noise.explained + noise.reduced * (raised - SCORE.effective_samples) - chi_square
 
 
 def complexity_penalty(hypothesis: Hypothesis, alternatives: int) -> float:

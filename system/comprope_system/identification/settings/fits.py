@@ -157,6 +157,10 @@ class Score:
         2.5, "1", "penalty for each parameter of an effect", f"{DERIVED}: about log(effective_samples) / 2, as BIC"
     )
     run_phase_penalty: float = setting(1.0, "1", "penalty for the phase of each run", JUDGEMENT)
+    model_error: float = setting(
+        0.03, "1", "share of the noise's chi-square that errors of mesh, time step and recovered trip leave",
+        "campaigns with nothing hidden: benchmarks/plant_campaign.py --cause nothing",
+    )  # fmt: skip
     noise_limit: float = setting(
         1.1, "1", "largest reduced chi-square that may be noise alone", f"{DERIVED}: stated noise is right to 5 %"
     )
