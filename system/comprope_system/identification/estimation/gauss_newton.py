@@ -66,16 +66,13 @@ def gauss_newton(
     base: ParameterPoint,
     abandon_above: float = float("inf"),
     initial_fit: FitResult | None = None,
-    *,
-    renew: bool = True,
 ) -> FitResult:
     """Fit of a hypothesis from the coefficients `start` (k,); `initial_fit` is the evaluation there, if it is known.
 
-    A fit whose linearisation predicts a chi-square above `abandon_above` ends where it is. Without `renew` derivatives are only
-    updated, never computed anew. Raises `SimulationError` if the model
+    A fit whose linearisation predicts a chi-square above `abandon_above` ends where it is. Raises `SimulationError` if the model
     cannot be simulated at `start`.
     """
-    directions, count, fresh = problem.directions(hypothesis), len(problem.data), renew
+    directions, count, fresh = problem.directions(hypothesis), len(problem.data), True
     best = initial_fit or evaluate(problem, hypothesis, np.asarray(start, float), base)
     for iteration in range(GAUSS_NEWTON.max_iterations):
         # With a large residual the priors are weighed by its mean square: else an implausible plant would imitate the effect.
@@ -92,9 +89,9 @@ def gauss_newton(
             shares = GAUSS_NEWTON.step_fractions if fresh else GAUSS_NEWTON.step_fractions[:2]
             best = _line_search(problem, best, solution, base, scale, shares)
         gain = before - best.cost(scale)
-        if (fresh or not renew) and gain < enough:
+        if fresh and gain < enough:
             break
-        fresh = renew and gain < max(enough, GAUSS_NEWTON.min_gain_ratio * predicted)
+        fresh = gain < max(enough, GAUSS_NEWTON.min_gain_ratio * predicted)
         if fresh:
             try:
                 best = replace(evaluate(problem, hypothesis, best.coefficients, base), covariance=best.covariance)
@@ -117,18 +114,16 @@ def fit_on_full_mesh(
 ) -> FitResult:
     """A fit to a coarsened problem continued on the full mesh.
 
-    A `thorough` fit computes derivatives there: with those of the coarse mesh, parameters that only their priors determine stay
-    where the coarse fit has left them. Another one begins with the coarse mesh's derivatives, and is only evaluated where much
-    more is left than noise. Raises `SimulationError` if the model cannot be simulated there.
+    Derivatives are computed there: with those of the coarse mesh, parameters that only their priors determine stay where the
+    coarse fit has left them. Only a `thorough` fit goes on where much more is left than noise. Raises `SimulationError` if the
+    model cannot be simulated there.
     """
-    if thorough:
-        return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base)
-    (predictions,) = problem.predictions(fitted.point)
-    residual = problem.residual(predictions)
-    there = replace(fitted, predictions=predictions, chi_square=float(residual @ residual))
-    if there.chi_square > GAUSS_NEWTON.far_from_data * len(problem.data):
-        return there
-    return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base, initial_fit=there, renew=False)
+    if not thorough:
+        (predictions,) = problem.predictions(fitted.point)
+        residual = problem.residual(predictions)
+        if (left := float(residual @ residual)) > GAUSS_NEWTON.far_from_data * len(problem.data):
+            return replace(fitted, predictions=predictions, chi_square=left)
+    return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base)
 
 
 def evaluate(problem: LeastSquaresProblem, hypothesis: Hypothesis | None, x: Floats, base: ParameterPoint) -> FitResult:

@@ -7,7 +7,7 @@ unknown size. The likelihood of chi^2 = s^2 (N + m N + E) is then that of Studen
     log L = -n/2 log(1 + E/n):
 
 half of chi^2 / s^2 where E is small, n/2 log(chi^2) where it is most of chi^2. The share m = `SCORE.model_error` is what mesh,
-time step and recovered trip err by, which an effect that is not there may imitate. The least chi^2 of the fits to be compared
+time step, recovered trip and noise model err by, which an absent effect may imitate. The least chi^2 of the fits to be compared
 tells s^2. With the penalty of about half the logarithm of n for each parameter it is a BIC (Schwarz 1978).
 """
 
