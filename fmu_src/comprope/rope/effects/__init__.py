@@ -12,9 +12,12 @@ from ..parameters import Base
 # isort: off
 # The order of these modules is that of the effects in the parameter vector and among the FMU's variables, whose value
 # references hosts keep: a new effect comes last.
-from . import air_drag, bending_hysteresis, intrinsic_curvature, end_displacement, sheave_eccentricity, sheave_friction
-from . import end_stops, tie_down, shaft_walls
-from . import sheave_unbalance, jammed_seal, jammed_guide, sticky_guide, rope_guides, encoder_scale, sloped_guide
+from . import air_drag, bending_hysteresis, intrinsic_curvature, end_displacement
+from .sheave import sheave_eccentricity, sheave_friction, end_stops, tie_down
+from . import shaft_walls
+from .sheave import sheave_unbalance, jammed_seal, jammed_guide, sticky_guide
+from . import rope_guides, encoder_scale
+from .sheave import sloped_guide
 # isort: on
 
 from . import user_effects

@@ -3,11 +3,11 @@
 T = -k theta, a torsional spring (Hooke's law): the seal's lip sticks to the shaft and is twisted instead of sliding.
 """
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DYY
-from ..runtime.parameter_vector import slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...runtime.array_layout import DYY
+from ...runtime.parameter_vector import slot
+from ..base import Effect, acts, register
 
 
 class JammedSeal(Effect):

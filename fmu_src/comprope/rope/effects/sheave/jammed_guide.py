@@ -4,11 +4,11 @@ F = -k (x_s - pit), a spring (Hooke's law): a bent or narrowing rail, a jammed g
 sliding.
 """
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DXX
-from ..runtime.parameter_vector import PIT, slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...runtime.array_layout import DXX
+from ...runtime.parameter_vector import PIT, slot
+from ..base import Effect, acts, register
 
 
 class JammedGuide(Effect):

@@ -5,11 +5,11 @@ against a fall with c_down v. A hydraulic tie-down lets the sheave follow the ro
 one-way one lets it fall freely. An anti-rebound device has c_down too.
 """
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DXX
-from ..runtime.parameter_vector import slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...runtime.array_layout import DXX
+from ...runtime.parameter_vector import slot
+from ..base import Effect, acts, register
 
 BLEND = 0.01  # m/s over which the closing valve takes hold; regularisation
 

@@ -6,11 +6,11 @@ Coulomb forces are regularised, F = F_c v / sqrt(v^2 + v_0^2), with v_0 well bel
 from math import sqrt
 from typing import ClassVar
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DXX, DYY
-from ..runtime.parameter_vector import slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...runtime.array_layout import DXX, DYY
+from ...runtime.parameter_vector import slot
+from ..base import Effect, acts, register
 
 TURN0 = 0.01  # rad/s
 LIFT0 = 5e-4  # m/s

@@ -4,10 +4,10 @@ y_s = slope (x_s - pit), towards the counterweight's side when it sinks, from wh
 What presses the sheave sideways then moves it up or down too, by the slope's share. Left out is the sheave's sideways inertia.
 """
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.parameter_vector import PIT, slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...runtime.parameter_vector import PIT, slot
+from ..base import Effect, acts, register
 
 
 class SlopedGuide(Effect):

@@ -4,11 +4,11 @@ With the depth d of the axle in a stop, F = max(0, k d + c d / (d + FADE) dd/dt)
 touch. A stop pushes only.
 """
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DXX
-from ..runtime.parameter_vector import PIT, slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...runtime.array_layout import DXX
+from ...runtime.parameter_vector import PIT, slot
+from ..base import Effect, acts, register
 
 FADE = 1e-4  # m, depth over which the damping of a stop fades in, as that of the rope's contact
 

@@ -10,11 +10,11 @@ of the axle is small beside g, and that of the sheave beside omega^2 at speed. S
 
 from math import cos, pi, sin
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DYY
-from ..runtime.parameter_vector import G, slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...runtime.array_layout import DYY
+from ...runtime.parameter_vector import G, slot
+from ..base import Effect, acts, register
 
 
 class SheaveUnbalance(Effect):

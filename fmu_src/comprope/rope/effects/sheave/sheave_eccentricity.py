@@ -2,10 +2,10 @@
 
 from math import cos, pi, sin
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.parameter_vector import slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...runtime.parameter_vector import slot
+from ..base import Effect, acts, register
 
 
 class SheaveEccentricity(Effect):

@@ -1,0 +1,1 @@
+"""Effects of the sheave: its guides, bearing, seal, shape and mass, stops and tie-down; one file for each."""
