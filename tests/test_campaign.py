@@ -90,7 +90,7 @@ BAD = [
     ('name = "x"\nmodel = "elevator.toml"\n' + CHANNEL + CHANNEL + RUN, ["column cw_low is described twice"]),
     (
         'name = "x"\nmodel = "elevator.toml"\n' + CHANNEL.replace("mm", "inch") + RUN,
-        ['unit = "inch"', "m, cm, mm, um are accepted"],
+        ['unit = "inch"', "m, cm, mm, um, in are accepted"],
     ),
     (
         'name = "x"\nmodel = "elevator.toml"\n' + CHANNEL + RUN.replace("fit", "test"),
@@ -152,5 +152,5 @@ def test_names_in_a_run_that_stand_for_nothing_are_refused(folder):
     assert lines == [
         'runs[1].files."cw_lwo": no channel of the run; did you mean "cw_low"?',
         'runs[1].offsets."lasers.csv": no other file of the run; did you mean "laser.csv"?',
-        'runs[1].readings."axle".unit = "rpm": for sheave_displacement m, cm, mm, um are accepted',
+        'runs[1].readings."axle".unit = "rpm": for sheave_displacement m, cm, mm, um, in are accepted',
     ]
