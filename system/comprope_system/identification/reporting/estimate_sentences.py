@@ -17,9 +17,11 @@ def estimate_sentences(fitted: FitResult, estimates: Mapping[str, Estimate]) -> 
         sentences.append(f"{_names(found.at_bound)} {verb} at the limit of what is accepted, where the interval says little.")
     if found.undetermined:
         sentences.append(f"These data do not determine {_names(found.undetermined)}: the standard error exceeds the value.")
-    for first, second, correlation in found.correlated:
-        pair = f"{_name(first)} and {_name(second)}"
-        sentences.append(f"The estimates of {pair} are strongly correlated ({correlation:.2f}): only together are they settled.")
+    for first in dict.fromkeys(one[0] for one in found.correlated):
+        others = [f"{_name(second)} ({correlation:.2f})" for name, second, correlation in found.correlated if name == first]
+        sentences.append(
+            f"The estimate of {_name(first)} is strongly correlated with {listed_words(others)}: only together are they settled."
+        )
     return sentences
 
 
