@@ -50,5 +50,5 @@ def test_estimates_that_only_hold_together_are_named() -> None:
     found = identifiability(*fit(correlation=-0.97))
     assert [(a, b, round(r, 9)) for a, b, r in found.correlated] == [(TORQUE, "rope.bending_stiffness", -0.97)]
     (sentence,) = estimate_sentences(*fit(correlation=-0.97))
-    assert "The estimate of bearing_friction.coulomb_torque is strongly correlated with rope.bending_stiffness (-0.97):" in sentence
+    assert "bearing_friction.coulomb_torque is strongly correlated with rope.bending_stiffness (-0.97):" in sentence
     assert identifiability(*fit(torque=30.0, correlation=-0.97)).correlated == ()  # a bound says it already
