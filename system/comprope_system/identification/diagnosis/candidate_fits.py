@@ -8,7 +8,7 @@ import numpy as np
 
 from comprope.errors import SimulationError
 
-from ..estimation.gauss_newton import FitResult, fit_on_full_mesh, gauss_newton
+from ..estimation.gauss_newton import FitResult, gauss_newton
 from ..estimation.initial_guess import best_initial_guess
 from ..estimation.mass_search import search_rope_mass
 from ..estimation.model_score import NoiseLevel, complexity_penalty, log_score
@@ -122,8 +122,9 @@ def _continued(one: CandidateFit, known: Sequence[tuple[FitResult, CandidateFit]
 def _on_full_mesh(context: FitContext, one: CandidateFit) -> CandidateFit:
     """The candidate fit on the full mesh; unchanged where the model cannot be simulated there."""
     context.report_progress(f"{one.hypothesis.effect}: fit on the full mesh")
+    coarse = one.fitted
     try:
-        return one._replace(fitted=fit_on_full_mesh(context.full_problem, one.fitted, context.origin, thorough=True))
+        return one._replace(fitted=gauss_newton(context.full_problem, coarse.hypothesis, coarse.coefficients, context.origin))
     except SimulationError:
         return one
 

@@ -45,8 +45,10 @@ def fit_from_file(
         fitted = fit_with_mass_search(rough, initial, base)
     else:
         fitted = gauss_newton(rough, hypothesis, start, base, initial_fit=initial)
-    if rough.coarse != problem.coarse:
-        fitted = fit_on_full_mesh(problem, fitted, base, thorough=hypothesis is not None)  # effects are reported
+    if rough.coarse != problem.coarse and hypothesis is None:
+        fitted = fit_on_full_mesh(problem, fitted, base)
+    elif rough.coarse != problem.coarse:  # effects are reported, whatever is left
+        fitted = gauss_newton(problem, hypothesis, fitted.coefficients, base)
     return FitFromFile(rough, initial, fitted)
 
 
@@ -60,7 +62,7 @@ def fit_coarse_to_fine(
     point = point_at(hypothesis, list(start), base)
     rough = problem.coarsened(point, problem.predictions(point)[0])
     fitted = gauss_newton(rough, hypothesis, start, base)
-    return fitted if rough.coarse == problem.coarse else fit_on_full_mesh(problem, fitted, base, thorough=True)
+    return fitted if rough.coarse == problem.coarse else gauss_newton(problem, hypothesis, fitted.coefficients, base)
 
 
 def with_derivatives(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:

@@ -109,20 +109,17 @@ def _least_decrease(hypothesis: Hypothesis | None, scale: float) -> float:
     return GAUSS_NEWTON.far_decrease if far else GAUSS_NEWTON.min_decrease
 
 
-def fit_on_full_mesh(
-    problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint, *, thorough: bool
-) -> FitResult:
-    """A fit to a coarsened problem continued on the full mesh.
+def fit_on_full_mesh(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:
+    """A fit of the plant alone to a coarsened problem continued on the full mesh, where noise may explain what is left.
 
     Derivatives are computed there: with those of the coarse mesh, parameters that only their priors determine stay where the
-    coarse fit has left them. Only a `thorough` fit goes on where much more is left than noise. Raises `SimulationError` if the
+    coarse fit has left them. Where much more is left than noise the fit is only evaluated. Raises `SimulationError` if the
     model cannot be simulated there.
     """
-    if not thorough:
-        (predictions,) = problem.predictions(fitted.point)
-        residual = problem.residual(predictions)
-        if (left := float(residual @ residual)) > GAUSS_NEWTON.far_from_data * len(problem.data):
-            return replace(fitted, predictions=predictions, chi_square=left)
+    (predictions,) = problem.predictions(fitted.point)
+    residual = problem.residual(predictions)
+    if (left := float(residual @ residual)) > GAUSS_NEWTON.far_from_data * len(problem.data):
+        return replace(fitted, predictions=predictions, chi_square=left)
     return gauss_newton(problem, fitted.hypothesis, fitted.coefficients, base)
 
 
