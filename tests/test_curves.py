@@ -15,8 +15,8 @@ from comprope_system.identification.comparison.compare import compare, compared
 from comprope_system.identification.comparison.largest_error import largest_error
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.prediction.replay import relative_to_rest
-from comprope_system.identification.reporting.comparison_page import before_and_after
 from comprope_system.identification.reporting.heat_maps import error_map
+from comprope_system.identification.reporting.pages.comparison import before_and_after
 from comprope_system.identification.reporting.run_curves import run_curves
 from comprope_system.identification.result.comparison import ComparisonResult
 from comprope_system.parallel.executors import threads

@@ -27,8 +27,8 @@ from comprope_system.identification.hypotheses.model_effects import shape_hypoth
 from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.model_updating import stepwise_selection as steps
 from comprope_system.identification.model_updating.add_effect import campaign_parameters, file_comment, fit_baseline
-from comprope_system.identification.reporting.effect_descriptions import meaning
-from comprope_system.identification.reporting.verdict_card import verdict_card
+from comprope_system.identification.reporting.pages.verdict_card import verdict_card
+from comprope_system.identification.reporting.texts.effect_descriptions import meaning
 from comprope_system.identification.residuals.residual_correlation import residual_correlations
 from comprope_system.identification.result.diagnosis import DiagnosisResult
 from comprope_system.identification.result.updating import AddResult

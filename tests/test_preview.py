@@ -18,7 +18,7 @@ from comprope_system.identification.result.comparison import ComparisonResult
 from comprope_system.parallel.executors import threads
 from comprope_system.report.curves import BEFORE, MEASURED, MODEL, Curve, Curves, Group, Panel
 from comprope_system.report.page import Section, save_page
-from comprope_system.report.preview import Preview, PreviewEffect, PreviewPanel, PreviewRun, PreviewSlider
+from comprope_system.report.preview import Preview, PreviewEffect, PreviewRun, PreviewSlider, Response
 
 from . import virtual_elevator
 from .browser import BROWSER
@@ -136,8 +136,10 @@ def test_a_page_of_many_long_runs_with_sliders_stays_below_3_mb(tmp_path):
     place, rows = np.arange(30_000) * 0.01, random.standard_normal((21, 30_000))
     curves = [Curve(n, s, v) for n, s, v in zip("mba", (MEASURED, BEFORE, MODEL), rows, strict=False)]
     groups = [Group(str(k), str(k), [Panel(str(j), "mm", place, curves) for j in range(10)]) for k in range(15)]
-    panels = [PreviewPanel(str(j), "mm", place, rows[0], rows, rows @ rows.T) for j in range(10)]
-    runs = [PreviewRun(str(k), "fit", panels, shown=k == 7) for k in range(15)]
+    curves = [Curve("measured", MEASURED, rows[0]), Curve("model", MODEL, rows[0])]
+    panels = [Panel(str(j), "mm", place, curves) for j in range(10)]
+    responses = [Response(rows, rows @ rows.T)] * len(panels)
+    runs = [PreviewRun(Group(str(k), str(k), panels, shown=k == 7), "fit", responses) for k in range(15)]
     sliders = [PreviewSlider(name, "mm", (0.0, 0.5, 1.0, 1.5), 2) for name in "uv"]
     preview = Preview("preview", [PreviewEffect("a", sliders, runs)], {"fit": (0.5, 0.1)})
     save_page(tmp_path / "long.html", "long", "", [Section("a", "A", [Curves("curves", groups), preview])])

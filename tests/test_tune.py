@@ -13,7 +13,7 @@ from comprope.drive.trajectory.reference_trajectory import first_trajectory
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.rope import CompensationRope
 from comprope_system import cli
-from comprope_system.commands.tune import read_times
+from comprope_system.commands.design.tune import read_times
 from comprope_system.modal.hanging_string import HangingString, side_string
 from comprope_system.prescribed_trip import side_shape
 from comprope_system.presets import model_path

@@ -59,22 +59,22 @@ def _welcome(
         typer.echo(context.get_help())
 
 
-PANELS = {  # of the help text, with commands in the order in which they are typically used
-    "Simulate": ("simulate", "modes"),
-    "Compare with measurements": ("app", "new", "check", "compare", "diagnose", "add", "improve"),
-    "Other tools": ("building", "fmu"),
-    "Design and tuning": ("tune", "design", "sway"),
-    "Verification": ("verify", "study"),
+PANELS = {  # of the help text: title, package, and commands in the order in which they are typically used
+    "Simulate": ("trips", ("simulate", "modes", "building", "fmu")),
+    "Compare with measurements": ("measurements", ("app", "new", "check", "compare", "diagnose", "add", "improve")),
+    "Design and tuning": ("design", ("tune", "design", "sway")),
+    "Verification": ("verification", ("verify", "study")),
 }
 
 
 def _register() -> None:
-    """Every module of `commands` is a command: the function that has the module's name."""
-    panels = {name: panel for panel, names in PANELS.items() for name in names}
-    found = [module.name for module in pkgutil.iter_modules(commands.__path__) if not module.name.startswith("_")]
-    for name in [*(one for one in panels if one in found), *(one for one in found if one not in panels)]:
-        function = getattr(importlib.import_module(f"{commands.__name__}.{name}"), name)
-        app.command(name.replace("_", "-"), rich_help_panel=panels.get(name))(with_options(function))
+    """Every module of a package of `commands` is a command: the function that has the module's name."""
+    for panel, (package, names) in PANELS.items():
+        group = importlib.import_module(f"{commands.__name__}.{package}")
+        found = [module.name for module in pkgutil.iter_modules(group.__path__)]
+        for name in [*(one for one in names if one in found), *(one for one in found if one not in names)]:
+            function = getattr(importlib.import_module(f"{group.__name__}.{name}"), name)
+            app.command(name.replace("_", "-"), rich_help_panel=panel)(with_options(function))
 
 
 _register()

@@ -15,8 +15,8 @@ from comprope.errors import InputError
 from ..identification.comparison.compare import compare as compare_at
 from ..identification.preview.effect_preview import EffectPreview
 from ..identification.preview.sliders import moved
-from ..identification.reporting.comparison_page import worst_run
-from ..identification.reporting.preview_section import preview_block
+from ..identification.reporting.pages.comparison import worst_run
+from ..identification.reporting.pages.preview import preview_block
 from ..identification.result.diagnosis import DiagnosisResult
 from ..parallel.executors import threads
 from ..parallel.progress import Progress

@@ -2,22 +2,50 @@
 
 import inspect
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
-from typing import Annotated, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
+
+from ._terminal import OutputFile, finish, require_files
+
+if TYPE_CHECKING:
+    from comprope_system import BuildingResult, SwayResult
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, tower50_light, building200.")]
 SET = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.mass=90. Repeatable.")]
 CAMPAIGN = Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml, or that file.")]
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result.")]
+TABLE = Annotated[Path | None, typer.Option(metavar="F.csv", help="Write the result as a table.")]
+PLOT = Annotated[Path | None, typer.Option(metavar="F.png", help="Plot the result; .png, .pdf or .svg.")]
 REPORT = Annotated[Path | None, typer.Option(metavar="F.html", help="Write an HTML report with figures.")]
 NEW_MODEL = Annotated[Path | None, typer.Option(metavar="MODEL.toml", help="Write the new model.")]
 FMU = Annotated[Path | None, typer.Option("--fmu", metavar="DIR", help="Write the FMUs of the new model and of the drive.")]
 JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Number of processes; default one per core.")]
 EXECUTOR = Annotated[str | None, typer.Option(metavar="dask://HOST:PORT", help="Run on a Dask cluster.")]
 ROPE_FMU = "CompensationRope.fmu"  # in the folder of --fmu
+
+
+@dataclass(frozen=True)
+class ResultFiles:
+    """Output files of a command whose result is a table and a picture."""
+
+    out: TABLE = None
+    plot: PLOT = None
+    json: JSON = None
+    report: REPORT = None
+
+    def require(self) -> None:
+        """Raise `InputError` for a file that cannot be written, before a long computation."""
+        require_files(
+            OutputFile(self.out), OutputFile(self.plot, "picture"), OutputFile(self.json), OutputFile(self.report, "page")
+        )
+
+    def finish(self, result: "BuildingResult | SwayResult") -> None:
+        """Print the summary of the result and write the files."""
+        pages = (self.json, result.save_json), (self.report, result.save_html)
+        finish(result, (self.out, result.to_csv), (self.plot, result.save_plot), *pages)
 
 
 def with_options(command: Callable[..., None]) -> Callable[..., None]:

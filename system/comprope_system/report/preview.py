@@ -2,14 +2,14 @@
 
 import base64
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .curves import MEASURED, MODEL, Curve, Curves, Floats, Group, Panel, Span, encode, with_gaps
+from .curves import Curves, Floats, Group, Panel, encode, with_gaps
 
 MAX_BYTES = 500_000  # of the data of all previews of a page, as text
 FEWEST, MOST = 120, 600  # samples of each curve
@@ -29,30 +29,23 @@ class PreviewSlider:
 
 
 @dataclass(frozen=True)
-class PreviewPanel:
-    """One channel of a run: measured (n,) at `place` (n,), and `data` (nodes * (1 + sliders), n), all in `unit`.
+class Response:
+    """What a channel would be at the nodes: `data` (nodes * (1 + sliders), n) at the places and in the unit of its panel.
 
     `form` (data, data) is the matrix of the squared NRMSE (see `identification.preview`), None where that is not defined.
     """
 
-    name: str
-    unit: str
-    place: Floats
-    measured: Floats
     data: Floats
     form: Floats | None
-    noise: Sequence[tuple[float, float, float]] = ()
 
 
 @dataclass(frozen=True)
 class PreviewRun:
-    """A run with its role, its phases and its channels."""
+    """A run with its role: channels as measured and at the present values, and the response of each."""
 
-    file: str
+    group: Group
     role: str
-    panels: Sequence[PreviewPanel]
-    spans: Sequence[Span] = ()
-    shown: bool = True
+    responses: Sequence[Response]
 
 
 @dataclass(frozen=True)
@@ -76,7 +69,7 @@ class Preview:
     @cached_property
     def drawn(self) -> list[int]:
         """Numbers of the runs whose curves are drawn, so that the page stays small: the one shown first, then the others."""
-        order = sorted(range(len(self.effects[0].runs)), key=lambda k: not self.effects[0].runs[k].shown)
+        order = sorted(range(len(self.effects[0].runs)), key=lambda k: not self.effects[0].runs[k].group.shown)
         sizes = np.cumsum([FEWEST * self._rows(k) * BYTES for k in order])
         return sorted(order[: max(1, int(np.searchsorted(sizes, MAX_BYTES, "right")))])
 
@@ -88,32 +81,30 @@ class Preview:
 
     def _rows(self, k: int) -> int:
         """Rows of data of a run, of all effects together, with those of its own curves, which take twice as much."""
-        return sum(len(panel.data) for effect in self.effects for panel in effect.runs[k].panels) + 6 * len(
-            self.effects[0].runs[k].panels
-        )
+        own = 6 * len(self.effects[0].runs[k].responses)
+        return own + sum(len(one.data) for effect in self.effects for one in effect.runs[k].responses)
 
     @cached_property
     def curves(self) -> Curves:
         """The curves of the first effect at its present values."""
-        groups = [
-            Group(run.file, f"{run.file} ({run.role})", [self._panel(one) for one in run.panels], run.spans, run.shown)
-            for run in (self.effects[0].runs[k] for k in self.drawn)
-        ]
+        drawn = [self.effects[0].runs[k].group for k in self.drawn]
+        groups = [replace(one, panels=[self._thinned(panel) for panel in one.panels]) for one in drawn]
         return Curves(f"{self.name}_curves", groups, caption=self._left_out())
 
     def _left_out(self) -> str:
         """Which runs are not drawn."""
-        files = [run.file for k, run in enumerate(self.effects[0].runs) if k not in self.drawn]
+        files = [run.group.name for k, run in enumerate(self.effects[0].runs) if k not in self.drawn]
         return f"Not drawn, so that the page stays small, but part of the errors: {', '.join(files)}." if files else ""
 
-    def _panel(self, one: PreviewPanel) -> Panel:
+    def _thinned(self, one: Panel) -> Panel:
+        """A channel with the samples that are drawn."""
         kept = self._kept(one)
-        curves = [Curve("measured", MEASURED, one.measured[kept]), Curve("model", MODEL, one.data[0][kept])]
-        return Panel(one.name, one.unit, one.place[kept], curves, noise=one.noise)
+        curves = [replace(curve, value=curve.value[kept]) for curve in one.curves]
+        return replace(one, place=one.place[kept], curves=curves)
 
-    def _kept(self, one: PreviewPanel) -> NDArray[np.int64]:
-        """The samples of a channel that are drawn: evenly chosen of those at which the first effect is known."""
-        known = np.flatnonzero(np.isfinite(one.measured) & np.isfinite(one.data[0]))
+    def _kept(self, one: Panel) -> NDArray[np.int64]:
+        """The samples of a channel that are drawn: evenly chosen of those at which all its curves are known."""
+        known = np.flatnonzero(np.isfinite([curve.value for curve in one.curves]).all(0))
         if len(known) <= self.samples:
             return known
         return known[np.unique(np.linspace(0, len(known) - 1, self.samples).round().astype(int))]
@@ -129,8 +120,8 @@ class Preview:
         for k, (run, first) in enumerate(zip(effect.runs, self.effects[0].runs, strict=True)):
             drawn = k in self.drawn
             panels = [
-                _packed(one, like.place, self._kept(like) if drawn else None)
-                for one, like in zip(run.panels, first.panels, strict=True)
+                _packed(one, panel.place, self._kept(panel) if drawn else None)
+                for one, panel in zip(run.responses, first.group.panels, strict=True)
             ]
             runs.append({"role": run.role, "drawn": drawn, "panels": panels})
         sliders = [
@@ -140,7 +131,7 @@ class Preview:
         return {"name": effect.name, "sliders": sliders, "runs": runs}
 
 
-def _packed(one: PreviewPanel, place: Floats, kept: NDArray[np.int64] | None) -> dict[str, Any]:
+def _packed(one: Response, place: Floats, kept: NDArray[np.int64] | None) -> dict[str, Any]:
     """Data of a channel as text, none if not drawn: each row as 16-bit integers with a scale, and the gaps of the curves."""
     form = None if one.form is None else _packed_form(one.form)
     if kept is None:

@@ -10,8 +10,8 @@ from ...report.heat_map import HeatCell, HeatMap, Target, level_of, level_senten
 from ..comparison.compare import ChannelComparison, Comparison, RunComparison
 from ..data.trip_phases import PHASES
 from ..settings import COMPARISON
-from .formatting import number, percent
 from .run_curves import channels_shown
+from .texts.formatting import number, percent
 
 Floats = NDArray[np.float64]
 

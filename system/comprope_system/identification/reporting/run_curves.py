@@ -11,7 +11,7 @@ from ..comparison.compare import ChannelComparison, Comparison, RunComparison
 from ..comparison.error_metrics import ORDERS
 from ..data.runs import Run
 from ..data.trip_phases import phases
-from . import formatting
+from .texts import formatting
 
 Floats = NDArray[np.float64]
 BAND = 2.0  # standard deviations: half width of the band of the noise

@@ -15,7 +15,7 @@ from ..hypotheses.plant_parameters import CLOCK
 from ..model_updating.backward_elimination import EffectRemoval
 from ..model_updating.stepwise_selection import StepwiseSelection
 from ..residuals.input_estimation import InputEstimation
-from .formatting import ZERO, number, percent, probability
+from .texts.formatting import ZERO, number, percent, probability
 
 SHOWN = 6  # rows of a table on the terminal
 

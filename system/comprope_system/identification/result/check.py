@@ -8,7 +8,7 @@ import pandas as pd
 
 from ...report.result import Result
 from ..data.campaign_check import CampaignCheck, RunCheck
-from ..reporting.formatting import paragraphs, wrapped
+from ..reporting.texts.formatting import paragraphs, wrapped
 
 
 @dataclass(frozen=True, repr=False)
@@ -63,6 +63,6 @@ class CheckResult(Result):
 
     def save_html(self, path: str | Path) -> None:
         """Write a page with a table of problems and remarks, completely or not at all."""
-        from ..reporting.check_page import save_check
+        from ..reporting.pages.check import save_check
 
         save_check(Path(path), self.headline(), self.to_dataframe())

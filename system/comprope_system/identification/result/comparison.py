@@ -12,8 +12,9 @@ from ..comparison.compare import Comparison, RunComparison
 from ..comparison.largest_error import LargestError, largest_error
 from ..data.campaign import Campaign
 from ..preview.effect_preview import EffectPreview
-from ..reporting import sentences, tables
-from ..reporting.formatting import listed, paragraphs, text_table, wrapped
+from ..reporting import tables
+from ..reporting.texts import sentences
+from ..reporting.texts.formatting import listed, paragraphs, text_table, wrapped
 
 
 @dataclass(frozen=True, repr=False)
@@ -95,6 +96,6 @@ class ComparisonResult(Result):
 
     def save_html(self, path: str | Path) -> None:
         """Write a page with a table of errors and the curves of every run, completely or not at all."""
-        from ..reporting.comparison_page import save_comparison
+        from ..reporting.pages.comparison import save_comparison
 
         save_comparison(Path(path), self.comparison, self.remarks, self.previews)

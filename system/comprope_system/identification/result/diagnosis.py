@@ -17,9 +17,10 @@ from ..diagnosis.experiment_design import ProposedRun
 from ..diagnosis.held_out_validation import ValidatedDiagnosis, plant, ranking, to_json
 from ..estimation.parameter_estimates import Estimate
 from ..preview.effect_preview import EffectPreview
-from ..reporting import sentences, tables
-from ..reporting.formatting import listed, paragraphs, text_table, wrapped
-from ..reporting.verdict_card import next_command
+from ..reporting import tables
+from ..reporting.pages.verdict_card import next_command
+from ..reporting.texts import sentences
+from ..reporting.texts.formatting import listed, paragraphs, text_table, wrapped
 from ..residuals.effect_skeleton import effect_skeleton
 from ..residuals.input_estimation import InputEstimation
 from ..residuals.residual_correlation import ResidualCorrelation, correlation_sentences
@@ -146,7 +147,7 @@ class DiagnosisResult(Result):
 
     def save_html(self, path: str | Path) -> None:
         """Write a page with verdict, ranking and pictures, completely or not at all."""
-        from ..reporting.diagnosis_page import save_diagnosis
+        from ..reporting.pages.diagnosis import save_diagnosis
 
         save_diagnosis(
             Path(path), self.validated, self.correlations, self.rest_ratio, self.residual_force, self.next_runs,

@@ -15,9 +15,10 @@ from ..data.campaign import Campaign
 from ..estimation.parameter_estimates import Estimate
 from ..model_updating.add_effect import UpdatedModel, file_comment
 from ..model_updating.stepwise_selection import SelectionStep, StepwiseSelection
-from ..reporting import sentences, tables
-from ..reporting.estimate_sentences import estimate_sentences
-from ..reporting.formatting import paragraphs, text_table, wrapped
+from ..reporting import tables
+from ..reporting.texts import sentences
+from ..reporting.texts.estimate_sentences import estimate_sentences
+from ..reporting.texts.formatting import paragraphs, text_table, wrapped
 
 
 class _ModelResult(Result):
@@ -106,7 +107,7 @@ class AddResult(_ModelResult):
 
     def save_html(self, path: str | Path) -> None:
         """Write a page with errors, estimates and pictures, completely or not at all."""
-        from ..reporting.update_pages import save_updated_model
+        from ..reporting.pages.updating import save_updated_model
 
         save_updated_model(Path(path), self.updated)
 
@@ -163,7 +164,7 @@ class ImproveResult(_ModelResult):
 
     def save_html(self, path: str | Path) -> None:
         """Write a page with steps, estimates and pictures, completely or not at all."""
-        from ..reporting.update_pages import save_selection
+        from ..reporting.pages.updating import save_selection
 
         save_selection(Path(path), self.selection)
 

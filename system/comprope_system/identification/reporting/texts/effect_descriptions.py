@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from comprope.quantities import quantities
 from comprope.rope.effects import INSTRUMENT, REGISTRY
 
-from ..data.runs import Channel
+from ...data.runs import Channel
 
 MEANINGS = {
     "air_drag": (

@@ -7,8 +7,8 @@ import typer
 
 import comprope_system
 
-from ._parameters import JSON, MODEL, SET
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import JSON, MODEL, SET
+from .._terminal import OutputFile, finish, progress_display, require_files
 
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder to write to.")]
 SENSORS = Annotated[int | None, typer.Option(metavar="N", help="Number of displacement sensors; default those of the model.")]

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from ...report.page import Section, Table, save_page
+from ....report.page import Section, Table, save_page
 
 
 def save_check(path: Path, headline: str, found: pd.DataFrame) -> None:

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from ..comparison.compare import Comparison
-from ..comparison.largest_error import largest_error
-from ..diagnosis.diagnose import Diagnosis
-from ..diagnosis.held_out_validation import ValidatedDiagnosis, full_name, implausible_parameters, ranking, reduced_chi_square
-from ..model_updating.add_effect import UpdatedModel
-from ..model_updating.stepwise_selection import StepwiseSelection
-from ..settings import COMPARISON, VERDICT
+from ...comparison.compare import Comparison
+from ...comparison.largest_error import largest_error
+from ...diagnosis.diagnose import Diagnosis
+from ...diagnosis.held_out_validation import ValidatedDiagnosis, full_name, implausible_parameters, ranking, reduced_chi_square
+from ...model_updating.add_effect import UpdatedModel
+from ...model_updating.stepwise_selection import StepwiseSelection
+from ...settings import COMPARISON, VERDICT
 from .detection_limits import detection_sentence
 from .formatting import number, percent, probability
 

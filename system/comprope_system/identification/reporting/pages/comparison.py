@@ -3,13 +3,14 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...report.page import Block, Section, save_page
-from ..comparison.compare import Comparison
-from ..comparison.largest_error import largest_error
-from ..preview.effect_preview import EffectPreview
-from . import heat_maps, sentences, tables
-from .preview_section import preview_section
-from .run_curves import order_curves, run_curves
+from ....report.page import Block, Section, save_page
+from ...comparison.compare import Comparison
+from ...comparison.largest_error import largest_error
+from ...preview.effect_preview import EffectPreview
+from .. import heat_maps, tables
+from ..run_curves import order_curves, run_curves
+from ..texts import sentences
+from .preview import preview_section
 
 DEFINITIONS = (
     "NRMSE: root-mean-square error divided by the standard deviation of the measured channel in its run; 100 % is no better than "

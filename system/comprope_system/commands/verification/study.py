@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from ._parameters import EXECUTOR, JOBS
-from ._terminal import progress_display
+from .._parameters import EXECUTOR, JOBS
+from .._terminal import progress_display
 
 NAMES = Annotated[
     list[str] | None, typer.Argument(metavar="[NAME]...", help="fig4, fig5, fig6, fig7, period, fig8, design; default all.")
@@ -31,8 +31,8 @@ def study(
     `design` computes the smallest sheave mass for a displacement limit. An interrupted run is resumed if it is
     started again with the same folder.
     """
-    from ..studies.study import StudyOptions
-    from ..studies.workflow import Request, run
+    from ...studies.study import StudyOptions
+    from ...studies.workflow import Request, run
 
     with progress_display() as progress:
         run(Request(names or (), out, jobs, executor, StudyOptions(building, distance, 1e-3 * limit)), progress)

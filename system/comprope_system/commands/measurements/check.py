@@ -4,8 +4,8 @@ import typer
 
 import comprope_system
 
-from ._parameters import CAMPAIGN, JSON, REPORT
-from ._terminal import OutputFile, finish, require_files
+from .._parameters import CAMPAIGN, JSON, REPORT
+from .._terminal import OutputFile, finish, require_files
 
 BAD_INPUT = 2
 

@@ -6,8 +6,8 @@ import typer
 
 import comprope_system
 
-from ._parameters import CAMPAIGN, EXECUTOR, FMU, JOBS, JSON, NEW_MODEL, REPORT, ROPE_FMU
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import CAMPAIGN, EXECUTOR, FMU, JOBS, JSON, NEW_MODEL, REPORT, ROPE_FMU
+from .._terminal import OutputFile, finish, progress_display, require_files
 
 EFFECT = Annotated[str, typer.Argument(metavar="EFFECT", help="Such as air_drag; an instrument's as sensor_gain.cw_low.")]
 

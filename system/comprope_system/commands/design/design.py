@@ -8,8 +8,8 @@ import typer
 
 import comprope_system
 
-from ._parameters import EXECUTOR, JOBS
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import EXECUTOR, JOBS
+from .._terminal import OutputFile, finish, progress_display, require_files
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, building200.")]
 DRIVE = Annotated[Path | None, typer.Option(metavar="D.toml", help="Drive file; default that of the preset.")]
@@ -76,7 +76,7 @@ def design(model: MODEL, demands: Demands, work: Work) -> None:
 
     Also computes sensor heights, and a map of resonances: natural periods of the rope against sway and trip durations.
     """
-    from ..sheave_design.result import PAGE
+    from ...sheave_design.result import PAGE
 
     require_files(OutputFile(work.out / PAGE), OutputFile(work.json))
     with progress_display() as progress:

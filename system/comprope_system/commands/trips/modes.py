@@ -1,19 +1,16 @@
 """`comprope modes`: natural periods and mode shapes of the suspended rope."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 import comprope_system
 
-from ._parameters import MODEL, SET
-from ._terminal import OutputFile, finish, require_files
+from .._parameters import JSON, MODEL, PLOT, SET
+from .._terminal import OutputFile, finish, require_files
 
 CAR = Annotated[float, typer.Option(metavar="M", help="Height of the car above the bottom landing.")]
 COUNT = Annotated[int, typer.Option(metavar="N", min=1, max=200, help="Number of modes, longest period first.")]
-PLOT = Annotated[Path | None, typer.Option(metavar="F.png", help="Plot the mode shapes; .png, .pdf or .svg.")]
-JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write periods and mode shapes.")]
 
 
 def modes(model: MODEL, car: CAR = 0.0, count: COUNT = 10, changes: SET = None, plot: PLOT = None, json: JSON = None) -> None:

@@ -7,8 +7,8 @@ import typer
 
 import comprope_system
 
-from ._parameters import CAMPAIGN, EXECUTOR, JOBS, JSON, REPORT
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import CAMPAIGN, EXECUTOR, JOBS, JSON, REPORT
+from .._terminal import OutputFile, finish, progress_display, require_files
 
 SKELETON = Annotated[Path | None, typer.Option(metavar="FILE.py", help="Write a file of an effect with the unknown one's force.")]
 WITHOUT = Annotated[list[str] | None, typer.Option(metavar="EFFECT", help="Exclude an effect. Repeatable.")]

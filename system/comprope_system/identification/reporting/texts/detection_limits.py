@@ -3,8 +3,8 @@
 from comprope.quantities import quantities
 from comprope.rope.effects import REGISTRY
 
-from ..diagnosis.diagnose import Candidate, Diagnosis
-from ..diagnosis.held_out_validation import effects_of
+from ...diagnosis.diagnose import Candidate, Diagnosis
+from ...diagnosis.held_out_validation import effects_of
 from .formatting import in_handy_unit, listed_words
 
 

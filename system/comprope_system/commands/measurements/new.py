@@ -8,8 +8,8 @@ import typer
 
 import comprope_system
 
-from ._parameters import JSON
-from ._terminal import OutputFile, finish, require_files
+from .._parameters import JSON
+from .._terminal import OutputFile, finish, require_files
 
 FOLDER = Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder in which campaign.toml is written.")]
 FILES = Annotated[

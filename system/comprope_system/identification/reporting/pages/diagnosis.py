@@ -3,17 +3,18 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...report.page import Block, Listing, Picture, Section, Table, save_page
-from ..diagnosis.experiment_design import ProposedRun, best_two_fits
-from ..diagnosis.held_out_validation import ValidatedDiagnosis, implausible_parameters, ranking
-from ..preview.effect_preview import EffectPreview
-from ..residuals.effect_skeleton import effect_skeleton
-from ..residuals.input_estimation import InputEstimation
-from ..residuals.residual_correlation import ResidualCorrelation, correlation_sentences
-from ..settings import CORRELATION, EXPERIMENTS
-from . import figures, sentences, tables
-from .comparison_page import before_and_after, data_quality_section, order_section, worst_run
-from .preview_section import preview_section
+from ....report.page import Block, Listing, Picture, Section, Table, save_page
+from ...diagnosis.experiment_design import ProposedRun, best_two_fits
+from ...diagnosis.held_out_validation import ValidatedDiagnosis, implausible_parameters, ranking
+from ...preview.effect_preview import EffectPreview
+from ...residuals.effect_skeleton import effect_skeleton
+from ...residuals.input_estimation import InputEstimation
+from ...residuals.residual_correlation import ResidualCorrelation, correlation_sentences
+from ...settings import CORRELATION, EXPERIMENTS
+from .. import figures, tables
+from ..texts import sentences
+from .comparison import before_and_after, data_quality_section, order_section, worst_run
+from .preview import preview_section
 from .verdict_card import verdict_card
 
 PLANT = (

@@ -3,16 +3,16 @@
 from collections.abc import Sequence
 from shlex import quote
 
-from ...report.card import Card
-from ..diagnosis.diagnose import Diagnosis
-from ..diagnosis.experiment_design import ProposedRun
-from ..diagnosis.held_out_validation import ValidatedDiagnosis, effects_of, full_name, ranking, reduced_chi_square
-from ..estimation.parameter_estimates import Estimate, effect_estimates, standard_error_scale
-from ..settings import VERDICT
-from .detection_limits import undetectable
-from .effect_descriptions import drawing, meaning, parameter_label, parameter_unit
-from .estimate_sentences import estimate_sentences
-from .formatting import in_handy_unit, listed_words, percent, probability
+from ....report.card import Card
+from ...diagnosis.diagnose import Diagnosis
+from ...diagnosis.experiment_design import ProposedRun
+from ...diagnosis.held_out_validation import ValidatedDiagnosis, effects_of, full_name, ranking, reduced_chi_square
+from ...estimation.parameter_estimates import Estimate, effect_estimates, standard_error_scale
+from ...settings import VERDICT
+from ..texts.detection_limits import undetectable
+from ..texts.effect_descriptions import drawing, meaning, parameter_label, parameter_unit
+from ..texts.estimate_sentences import estimate_sentences
+from ..texts.formatting import in_handy_unit, listed_words, percent, probability
 
 KINDS = {
     "known_effect": "Missing effect", "instrument": "Faulty instrument", "adequate": "Adequate model",

@@ -9,8 +9,8 @@ import typer
 import comprope_system
 from comprope.errors import InputError
 
-from ._parameters import MODEL, SET
-from ._terminal import OutputFile, finish, require_files
+from .._parameters import MODEL, SET, ResultFiles
+from .._terminal import OutputFile, require_files
 
 KIND = Annotated[str, typer.Argument(metavar="KIND", help="earthquake, of long period, or wind.")]
 PERIOD = Annotated[float | None, typer.Option(metavar="S", help="Period of the first mode; default height / 46 Hz m.")]
@@ -24,10 +24,7 @@ WIND_SPEED = Annotated[float, typer.Option(metavar="M/S", help="Mean speed of th
 WIDTH = Annotated[float, typer.Option(metavar="M", help="Width of the building across the wind.")]
 SEED = Annotated[int, typer.Option(metavar="N", help="Equal seeds give equal records.")]
 TOP = Annotated[float | None, typer.Option(metavar="M", help="Height of the building; default the top landing.")]
-OUT = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the record.")]
-SHAKEN = Annotated[Path | None, typer.Option("--model", metavar="FILE.toml", help="Write the model with this building.")]
-PLOT = Annotated[Path | None, typer.Option(metavar="FILE.png", help="Plot the record and its spectrum; .png, .pdf or .svg.")]
-REPORT = Annotated[Path | None, typer.Option(metavar="F.html", help="Write an HTML page.")]
+SHAKEN = Annotated[Path | None, typer.Option("--model", metavar="FILE.toml", help="With --out: write a model with the record.")]
 
 
 @dataclass(frozen=True)
@@ -44,32 +41,23 @@ class Motion:
     seed: SEED = 0
 
 
-@dataclass(frozen=True)
-class Files:
-    """Output files."""
-
-    out: OUT = None
-    shaken: SHAKEN = None
-    plot: PLOT = None
-    report: REPORT = None
-
-
-def building(kind: KIND, model: MODEL, motion: Motion, files: Files, top: TOP = None, changes: SET = None) -> None:
+def building(
+    kind: KIND, model: MODEL, motion: Motion, files: ResultFiles, shaken: SHAKEN = None, top: TOP = None, changes: SET = None
+) -> None:
     """Make a synthetic record of the building's motion, in a long-period earthquake or in gusts of wind.
 
     The record has the displacement of the building at eleven heights. With --model a model file is written that replays it:
     `comprope simulate` moves the rope's ends, the sheave's guides and the sensors with the building.
     """
-    require_files(
-        OutputFile(files.out), OutputFile(files.shaken), OutputFile(files.plot, "picture"), OutputFile(files.report, "page")
-    )
-    if files.shaken and not files.out:
+    files.require()
+    require_files(OutputFile(shaken))
+    if shaken and not files.out:
         raise InputError("--model: accepted with --out FILE.csv, the record that the model names")
     given: dict[str, Any] = {name: value for name, value in vars(motion).items() if value is not None}
     result = comprope_system.building(model, kind, top=top, changes=changes, **given)  # type: ignore[arg-type]
-    finish(result, (files.out, result.to_csv), (files.plot, result.save_plot), (files.report, result.save_html))
-    if files.shaken and files.out:
-        result.save_model(files.shaken, files.out)
-        typer.echo(f"written {files.shaken}")
+    files.finish(result)
+    if shaken and files.out:
+        result.save_model(shaken, files.out)
+        typer.echo(f"written {shaken}")
     elif files.out:
         typer.echo(f"\nfor a model file beside the record:\n\n{result.toml(files.out.name)}")

@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 
-from ..estimation.gauss_newton import FitResult
-from ..estimation.identifiability import identifiability
-from ..estimation.parameter_estimates import Estimate
+from ...estimation.gauss_newton import FitResult
+from ...estimation.identifiability import identifiability
+from ...estimation.parameter_estimates import Estimate
 from .formatting import listed_words
 
 

@@ -5,7 +5,7 @@ from textwrap import wrap
 
 import numpy as np
 
-from ...report.page import Table
+from ....report.page import Table
 
 WIDTH = 100  # of lines on a terminal
 HANDY_UNITS = (  # SI unit, from and below which largest value, factor, unit

@@ -10,8 +10,8 @@ import typer
 import comprope_system
 from comprope.errors import InputError
 
-from ._parameters import MODEL, SET
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import MODEL, SET
+from .._terminal import OutputFile, finish, progress_display, require_files
 
 FROM = Annotated[
     float | None,
@@ -155,8 +155,8 @@ def simulate(model: MODEL, motion: MotionOptions, stop: StopOptions, options: Ru
 
 def _require_wall(model: str, changes: list[str] | None, wall: float | None) -> None:
     """Raise `InputError` without a wall [m], before a long computation."""
-    from ..simulation.clearance import known_wall
-    from ..simulation.workflow import changed_model
+    from ...simulation.clearance import known_wall
+    from ...simulation.workflow import changed_model
 
     known_wall(changed_model(model, changes)[0], wall)
 

@@ -2,16 +2,17 @@
 
 from collections.abc import Sequence
 
-from ...report.page import Section
-from ...report.preview import Preview, PreviewEffect, PreviewPanel, PreviewRun, PreviewSlider
-from ..comparison.compare import Comparison
-from ..data.runs import Run
-from ..prediction.replay import relative_to_rest
-from ..preview.effect_preview import EffectPreview
-from ..preview.sliders import Slider
-from .effect_descriptions import parameter_label, parameter_unit
-from .formatting import handy_unit
-from .run_curves import noise_spans, phase_spans
+from ....report.curves import MEASURED, MODEL, Curve, Group, Panel
+from ....report.page import Section
+from ....report.preview import Preview, PreviewEffect, PreviewRun, PreviewSlider, Response
+from ...comparison.compare import Comparison
+from ...data.runs import Run
+from ...prediction.replay import relative_to_rest
+from ...preview.effect_preview import EffectPreview
+from ...preview.sliders import Slider
+from ..run_curves import noise_spans, phase_spans
+from ..texts.effect_descriptions import parameter_label, parameter_unit
+from ..texts.formatting import handy_unit
 
 TITLE = "Try it: move the effect and watch the error"
 CAPTION = (
@@ -58,7 +59,7 @@ def _run(one: EffectPreview, given: Comparison, run: Run, factors: Sequence[floa
     """The channels of a run that hold enough to be compared."""
     measured = relative_to_rest(run.values, run, one.campaign.channels)
     compared = next(each for each in given.runs if each.file == run.file)
-    panels = []
+    panels, responses = [], []
     for channel in (each for each in compared.channels if len(each.time)):
         column, scale = channel.column, channel.channel.scale
         data = one.data[run.file, column] / scale
@@ -68,6 +69,7 @@ def _run(one: EffectPreview, given: Comparison, run: Run, factors: Sequence[floa
         sizes = [1.0, *(1.0 / factor for factor in factors)] * (len(data) // (1 + len(factors)))
         form = one.forms.get((run.file, column))
         scaled = None if form is None else form * [[a * b for a in sizes] for b in sizes]
-        noise = noise_spans(given, run, channel)
-        panels.append(PreviewPanel(column, channel.channel.unit, run.time, measured[column] / scale, data, scaled, noise))
-    return PreviewRun(run.file, run.role, panels, phase_spans(run), shown)
+        curves = [Curve("measured", MEASURED, measured[column] / scale), Curve("model", MODEL, data[0])]
+        panels.append(Panel(column, channel.channel.unit, run.time, curves, noise=noise_spans(given, run, channel)))
+        responses.append(Response(data, scaled))
+    return PreviewRun(Group(run.file, f"{run.file} ({run.role})", panels, phase_spans(run), shown), run.role, responses)

@@ -2,8 +2,8 @@
 
 import comprope_system
 
-from ._parameters import CAMPAIGN, JSON, REPORT
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import CAMPAIGN, JSON, REPORT
+from .._terminal import OutputFile, finish, progress_display, require_files
 
 
 def compare(campaign: CAMPAIGN, json: JSON = None, report: REPORT = None) -> None:

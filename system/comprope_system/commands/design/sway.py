@@ -1,15 +1,14 @@
 """`comprope sway`: swing of the rope in a swaying building, by car position and period."""
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 import comprope_system
 
-from ._parameters import JSON, MODEL, SET
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import MODEL, SET, ResultFiles
+from .._terminal import progress_display
 
 AMPLITUDE = Annotated[float, typer.Option(metavar="MM", help="Amplitude of the building sway at the top landing.")]
 PERIOD = Annotated[float | None, typer.Option(metavar="S", help="Period of the building, for the floors; default any.")]
@@ -18,9 +17,6 @@ FLOORS = Annotated[int, typer.Option(metavar="N", help="Number of equally spaced
 DURATION = Annotated[float, typer.Option(metavar="S", help="Duration of the sway.")]
 DAMPING = Annotated[float, typer.Option(metavar="X", help="Damping ratio of the rope's modes.")]
 VERIFY = Annotated[int, typer.Option(metavar="N", help="Cells of the map that the full model simulates as well.")]
-OUT = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the map.")]
-PLOT = Annotated[Path | None, typer.Option(metavar="FILE.png", help="Plot the map; .png, .pdf or .svg.")]
-REPORT = Annotated[Path | None, typer.Option(metavar="F.html", help="Write an HTML page.")]
 
 
 @dataclass(frozen=True)
@@ -43,25 +39,13 @@ class Building:
         )
 
 
-@dataclass(frozen=True)
-class Files:
-    """Output files."""
-
-    out: OUT = None
-    plot: PLOT = None
-    json: JSON = None
-    report: REPORT = None
-
-
-def sway(model: MODEL, building: Building, files: Files, changes: SET = None) -> None:
+def sway(model: MODEL, building: Building, files: ResultFiles, changes: SET = None) -> None:
     """Compute how far the rope of a parked car swings while the building sways: a map over car position and building period.
 
     Also lists the floors at which no car should be parked. Modes of the linearised rope; the largest cells of the map are
     simulated with the full model as well.
     """
-    written = OutputFile(files.plot, "picture"), OutputFile(files.report, "page")
-    require_files(OutputFile(files.out), OutputFile(files.json), *written)
+    files.require()
     with progress_display() as progress:
         result = comprope_system.sway(model, building.options, changes=changes, progress=progress)
-    pictures = (files.plot, result.save_plot), (files.report, result.save_html)
-    finish(result, (files.out, result.to_csv), (files.json, result.save_json), *pictures)
+    files.finish(result)

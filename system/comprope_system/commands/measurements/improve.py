@@ -2,8 +2,8 @@
 
 import comprope_system
 
-from ._parameters import CAMPAIGN, EXECUTOR, FMU, JOBS, JSON, NEW_MODEL, REPORT, ROPE_FMU
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import CAMPAIGN, EXECUTOR, FMU, JOBS, JSON, NEW_MODEL, REPORT, ROPE_FMU
+from .._terminal import OutputFile, finish, progress_display, require_files
 
 
 def improve(

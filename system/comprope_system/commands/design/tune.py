@@ -10,8 +10,8 @@ import typer
 import comprope_system
 from comprope.errors import InputError
 
-from ._parameters import EXECUTOR, JOBS, SET
-from ._terminal import OutputFile, finish, progress_display, require_files
+from .._parameters import EXECUTOR, JOBS, SET
+from .._terminal import OutputFile, finish, progress_display, require_files
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, building200.")]
 DRIVE = Annotated[
@@ -68,7 +68,7 @@ def tune(model: MODEL, wishes: Wishes, work: Work) -> None:
     Speed, acceleration and jerk stay within the limits of the present drive. Candidates are found with a reduced linear model,
     evaluated with the full model and validated with the FMUs. An interrupted run is resumed if started with the same folder.
     """
-    from ..tuning.result import PAGE
+    from ...tuning.result import PAGE
 
     require_files(OutputFile(work.out / PAGE), OutputFile(work.json))
     options = comprope_system.TuningOptions(
@@ -88,7 +88,7 @@ def tune(model: MODEL, wishes: Wishes, work: Work) -> None:
 
 def read_times(text: str) -> list[float]:
     """Travel times such as `1.05,1.2` in increasing order; raises `InputError` for invalid ones."""
-    from ..tuning.workflow import MAX_TIME_FACTOR, SHORTEST
+    from ...tuning.workflow import MAX_TIME_FACTOR, SHORTEST
 
     try:
         found = sorted(float(one) for one in text.split(","))

@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
-from ...report.page import Block, Picture, Section, save_page
-from ..model_updating.add_effect import UpdatedModel
-from ..model_updating.stepwise_selection import StepwiseSelection
-from . import figures, sentences, tables
-from .comparison_page import before_and_after, order_section
-from .estimate_sentences import estimate_sentences
+from ....report.page import Block, Picture, Section, save_page
+from ...model_updating.add_effect import UpdatedModel
+from ...model_updating.stepwise_selection import StepwiseSelection
+from .. import figures, tables
+from ..texts import sentences
+from ..texts.estimate_sentences import estimate_sentences
+from .comparison import before_and_after, order_section
 
 ESTIMATES = "With one standard error and a 95 % confidence interval: the effect, then the plant parameters."
 

@@ -1,0 +1,1 @@
+"""Commands that dimension an elevator."""

@@ -1,0 +1,1 @@
+"""Commands from measurements to a better model."""
