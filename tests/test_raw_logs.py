@@ -14,7 +14,7 @@ from comprope_system.measurements.campaign_file import CampaignFile, Channel, Ru
 from comprope_system.measurements.files import RawTable, read_raw_table
 from comprope_system.measurements.files.file_format import FileFormat
 from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
-from comprope_system.measurements.run_table import read_run_table
+from comprope_system.measurements.runs.run_table import read_run_table
 from comprope_system.measurements.units import is_unit, split_unit, unit_named
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))

@@ -7,7 +7,7 @@ from scipy.signal import TransferFunction, lsim
 from comprope.errors import InputError
 from comprope_system.measurements import recover_trip
 from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
-from comprope_system.measurements.motion.smoothing_spline import smooth
+from comprope_system.measurements.motion.smoothing.smoothing_spline import smooth
 
 NOISE = 5e-4  # m, a usual encoder
 PERIOD = 0.008  # s

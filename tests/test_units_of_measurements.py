@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from comprope_system.identification.data.runs import Channel
-from comprope_system.measurements.end_motions import EndSignals, recover_ends
 from comprope_system.measurements.motion.anchoring import Landings
-from comprope_system.measurements.motion_column import MotionSignal
-from comprope_system.measurements.run_table import UNITS
+from comprope_system.measurements.runs.end_motions import EndSignals, recover_ends
+from comprope_system.measurements.runs.motion_column import MotionSignal
+from comprope_system.measurements.units import UNITS
 
 # What one unit is in SI units: a turn is 2 pi rad, a degree the 360th part of it, a minute 60 s.
 SIZES = {

@@ -9,7 +9,7 @@ from ..measurements.columns.column_names import plain_name
 from ..measurements.columns.readings import written_unit
 from ..measurements.units import is_unit, unit_named
 from .column_roles import GUESS, LIKELY, SURE, Evidence, Role, role_of
-from .survey import SurveyedColumn, SurveyedRun
+from .survey.surveyed_runs import SurveyedColumn, SurveyedRun
 
 
 def roles(runs: Sequence[SurveyedRun], model: RopeModel) -> dict[str, Role]:

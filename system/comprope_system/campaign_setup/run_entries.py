@@ -9,7 +9,7 @@ from ..measurements.columns.column_names import plain_name
 from ..measurements.units import UNITS
 from .column_matching import own_name, stated_unit
 from .column_roles import ANSWERED, STATED, Role
-from .survey import SurveyedRun
+from .survey.surveyed_runs import SurveyedRun
 
 ABSENT = ""  # the name of a channel in a run that does not have it
 FEWEST = 20  # samples at rest for an estimate of the noise

@@ -14,12 +14,12 @@ from .campaign_text import campaign_text
 from .column_matching import own_name, roles
 from .column_roles import BY_SIZE, Role, reach
 from .corrections import Corrections, corrected, require_runs
-from .model_choice import choose_model, copied
+from .elevator_model.model_choice import choose_model, copied
 from .questions import Ask, asked_changes, asked_role, asked_start, without_guess
 from .result import NewCampaign
 from .run_entries import Answers, noise, run_entry
-from .run_grouping import grouped
-from .survey import SurveyedRun, survey
+from .survey.run_grouping import grouped
+from .survey.surveyed_runs import SurveyedRun, survey
 
 HELD_OUT = 2  # runs from which on one is held out
 SHEAVE_OF_RUN = 'where it was another, write set = { "sheave.mass" = ..., "sheave.inertia" = ... } in its run'

@@ -18,10 +18,10 @@ from ..cosim.master import Coupling
 from ..measurements import Trip
 from ..measurements.campaign_file import CampaignFile, RunSpec, read_campaign_file
 from ..measurements.campaign_file import Channel as MeasuredChannel
-from ..measurements.end_motions import EndSignals, recover_ends
 from ..measurements.motion.anchoring import Landings
 from ..measurements.motion.recover import Motion
-from ..measurements.run_table import present_channels, read_run_table
+from ..measurements.runs.end_motions import EndSignals, recover_ends
+from ..measurements.runs.run_table import present_channels, read_run_table
 from .trip_simulation import Timing
 
 Floats = NDArray[np.float64]

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from ...measurements.run_table import UNITS
+from ...measurements.units import UNITS
 from ..data.campaign import Campaign
 from ..data.outliers import outliers
 from ..data.plausibility import remarks_on_record

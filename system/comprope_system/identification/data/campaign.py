@@ -18,10 +18,10 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
 
 from ...measurements.campaign_file import CampaignFile, Channel, RunSpec, Tolerance, read_campaign_file
-from ...measurements.end_motions import EndMotions, EndSignals, recover_ends
 from ...measurements.motion.anchoring import Landings
-from ...measurements.run_readings import run_problems
-from ...measurements.run_table import RunTable, read_run_table
+from ...measurements.runs.end_motions import EndMotions, EndSignals, recover_ends
+from ...measurements.runs.run_readings import run_problems
+from ...measurements.runs.run_table import RunTable, read_run_table
 from ...measurements.units import UNITS
 from ...presets.inputs import require_still_building
 from .car_direction import mirrored_car

@@ -10,8 +10,8 @@ import pandas as pd
 
 from comprope.errors import InputError
 
+from ..files.cells.time_stamps import is_time_stamp
 from ..files.raw_table import RawColumn, RawTable, printable
-from ..time_stamps import is_time_stamp
 from ..units import split_unit
 
 LOOKED_AT = 200  # samples that tell whether a column counts time

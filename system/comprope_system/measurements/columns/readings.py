@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from comprope.errors import InputError
 
-from ..files.numerals import to_numbers
+from ..files.cells.numerals import to_numbers
 from ..files.raw_table import RawColumn, RawTable, printable
 from ..units import ELECTRICAL, split_unit, unit_named
 from .signal_faults import Finding, remove_faults

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pandas as pd
 
-from ..files.numerals import to_numbers
+from ..files.cells.numerals import to_numbers
+from ..files.cells.time_stamps import is_time_stamp
 from ..files.raw_table import RawColumn, RawTable
-from ..time_stamps import is_time_stamp
 from .column_names import is_time_name, plain_name
 
 MILLISECONDS = frozenset(["ms", "msec", "msecs", "millisecond", "milliseconds", "milli", "millisekunde", "millisekunden"])

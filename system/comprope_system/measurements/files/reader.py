@@ -9,12 +9,12 @@ from comprope.errors import InputError
 
 from .file_format import FileFormat
 from .raw_table import RawTable, printable
-from .text_file import read_text_table
+from .text.text_file import read_text_table
 
 EXTRA = "formats"  # of the package's optional dependencies
 LARGEST = 2_000_000_000  # bytes; a larger file is hardly the record of one trip
 HDF5_MARK = b"\x89HDF\r\n\x1a\n"
-FORMATS = {  # module here, and the package it needs
+FORMATS = {  # module in `formats`, and the package it needs
     "hdf5": ("hdf5_file", "h5py"),
     "mat": ("mat_file", "scipy"),
     "mdf": ("mdf_file", "asammdf"),
@@ -69,7 +69,7 @@ def _read(path: Path, data: bytes, stated: FileFormat) -> RawTable:
     except ImportError:
         raise InputError(f'reading this format needs the package {package}: pip install "comprope[{EXTRA}]"') from None
     try:
-        found: RawTable = importlib.import_module(f".{module}", __package__).read(path, stated)
+        found: RawTable = importlib.import_module(f".formats.{module}", __package__).read(path, stated)
     except InputError:
         raise
     except Exception as error:  # whatever a damaged file makes of a library

@@ -13,7 +13,9 @@ from scipy.integrate import cumulative_trapezoid
 from comprope.errors import InputError
 
 from .motion_spans import motion_spans
-from .position_signal import TOP_SPEED, Signal, prepare, spikes
+from .signal.position_signal import Signal
+from .signal.preparation import prepare
+from .signal.spikes import TOP_SPEED, spikes
 
 Floats = NDArray[np.float64]
 

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from .local_misfit import TYPICAL
-from .position_signal import Signal
+from .signal.local_misfit import TYPICAL
+from .signal.position_signal import Signal
 
 BLOCK = 0.2  # s over which positions are averaged
 FEWEST_IN_BLOCK = 4  # samples

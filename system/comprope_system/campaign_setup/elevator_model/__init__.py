@@ -1,0 +1,1 @@
+"""The model of a new campaign: a file, a preset, a data sheet, or answers."""

@@ -1,0 +1,1 @@
+"""Spreadsheets and binary files, one module each."""

@@ -1,0 +1,1 @@
+"""A position signal before its motion is recovered: noise, resolution, spikes, held values."""
