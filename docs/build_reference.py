@@ -11,11 +11,10 @@ from comprope.drive.cosimulation import interface as drive_interface
 from comprope.drive.parameters import Drive
 from comprope.fmi.model_interface import ModelInterface
 from comprope.quantities import Quantity, quantities
-from comprope.rope.building import Building
 from comprope.rope.effects import INSTRUMENT, REGISTRY
 from comprope.rope.model_file import load
-from comprope.rope.parameters import Sensor
-from comprope.rope.runtime.parameter_vector import COMPONENTS, DECLARED
+from comprope.rope.parameters import Building, Sensor
+from comprope.rope.parameters.parameter_vector import COMPONENTS, DECLARED
 from comprope.rope.simulator.cosimulation import interface as rope_interface
 from comprope_system.identification.data.campaign import CampaignFile, Channel, RunSpec
 from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS

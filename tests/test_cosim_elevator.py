@@ -14,7 +14,8 @@ from comprope_system.cosim.fmu_cache import NamedFmus
 from comprope_system.cosim.fmu_participant import FmuParticipant
 from comprope_system.presets.inputs import load_drive
 from comprope_system.simulation.elevator import driven_elevator
-from comprope_system.simulation.trip_simulation import Timing, simulate
+from comprope_system.simulation.timing import Timing
+from comprope_system.simulation.trip_simulation import simulate
 
 # A coarse rope on a short trip: what is tested is the coupling, not the rope.
 COARSE = {"rope.element_length": 0.2, "solver.step": 0.005, "shaft.height": 12.0}

@@ -8,8 +8,8 @@ import pytest
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
 from comprope.rope.compiler.workspace import RopeWorkspace
 from comprope.rope.effects import REGISTRY
+from comprope.rope.parameters.parameter_vector import ELEMENT, C, K
 from comprope.rope.runtime.array_layout import ELASTIC, FRICTION_LOSS, NORMAL_LOSS
-from comprope.rope.runtime.parameter_vector import ELEMENT, C, K
 
 from .random_rope import COMPANIONS, TIME, forces, nominal, random_state
 from .rope_tower import STUB, rope, way

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from comprope.rope.effects import REGISTRY, user_effects
-from comprope.rope.effects.kernel_checks import require_consistent
+from comprope.rope.effects.checks.kernel_checks import require_consistent
 from comprope_system.identification.residuals.effect_skeleton import effect_skeleton
 from comprope_system.identification.residuals.force_locations import force_locations
 from comprope_system.identification.residuals.input_estimation import ForceEstimate, InputEstimation, TimeHistory

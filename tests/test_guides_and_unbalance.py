@@ -5,7 +5,7 @@ import pytest
 
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
 from comprope.rope.effects import REGISTRY
-from comprope.rope.effects.trial_state import NODES, TrialState
+from comprope.rope.effects.checks.trial_state import NODES, TrialState
 from comprope.rope.runtime.array_layout import DXX
 from comprope.rope.runtime.kernel_arguments import Weights
 from comprope.rope.simulator.rope import CompensationRope

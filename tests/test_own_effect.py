@@ -20,9 +20,9 @@ from comprope.drive.parameters import Profile
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError, SimulationError
 from comprope.rope.effects import REGISTRY, names_of, user_effects
-from comprope.rope.effects.kernel_checks import require_consistent
+from comprope.rope.effects.checks.kernel_checks import require_consistent
 from comprope.rope.model_file import dump, load, with_changes
-from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.parameters.parameter_vector import DECLARED
 from comprope.rope.simulator.cosimulation import interface
 from comprope.rope.simulator.rope import CompensationRope, values_of
 from comprope_system import cli
@@ -33,7 +33,8 @@ from comprope_system.identification.model_updating.add_effect import add_effect
 from comprope_system.parallel.executors import threads
 from comprope_system.presets.inputs import load_drive
 from comprope_system.simulation.elevator import driven_elevator
-from comprope_system.simulation.trip_simulation import Timing, simulate
+from comprope_system.simulation.timing import Timing
+from comprope_system.simulation.trip_simulation import simulate
 
 from . import virtual_elevator
 from .own_effects import EXAMPLES, FILES, SPRING

@@ -17,15 +17,15 @@ from comprope.quantities import quantities
 from comprope.rope.compiler.entry_points import compiled
 from comprope.rope.compiler.workspace import RopeWorkspace
 from comprope.rope.effects import REGISTRY
-from comprope.rope.effects.trial_state import TrialState
+from comprope.rope.effects.checks.trial_state import TrialState
 from comprope.rope.linalg import block_band, bordered_band
 from comprope.rope.mechanics import end_conditions, equations_of_motion, internal_tangent, sensors
-from comprope.rope.mechanics.contact_law import contact_radius, friction_law, normal_law
+from comprope.rope.mechanics.contact.contact_law import contact_radius, friction_law, normal_law
 from comprope.rope.mechanics.energy import LOSSES, SPENT
 from comprope.rope.mechanics.internal_forces import angle
+from comprope.rope.parameters.parameter_vector import DECLARED, slot
 from comprope.rope.runtime.array_layout import BAND, COLUMNS, CONTACT, FIRST, FRICTION_LOSS, LAST, ROWS, TENSION
 from comprope.rope.runtime.kernel_arguments import Motion, Weights, Workspace
-from comprope.rope.runtime.parameter_vector import DECLARED, slot
 from comprope.rope.simulator.end_motion import EndMotion, parabola
 
 from .random_rope import COMPANIONS, TIME, forces, nominal, random_state

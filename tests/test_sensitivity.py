@@ -11,7 +11,7 @@ import pytest
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
 from comprope.errors import InputError
 from comprope.rope.model_file import with_changes
-from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.parameters.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import CompensationRope, values_of
 from comprope.rope.simulator.sensitive_rope import SensitiveRope
 from comprope_system.identification.data.runs import Channel, Run

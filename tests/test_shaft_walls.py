@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from comprope.rope.effects import REGISTRY
-from comprope.rope.effects.trial_state import NODES, TrialState
+from comprope.rope.effects.checks.trial_state import NODES, TrialState
+from comprope.rope.parameters.parameter_vector import ELEMENT, R, slot
 from comprope.rope.runtime.array_layout import DXX, DYY
 from comprope.rope.runtime.kernel_arguments import Weights
-from comprope.rope.runtime.parameter_vector import ELEMENT, R, slot
 from comprope.rope.simulator.rope import CompensationRope
 
 from .rope_tower import TOWER, rope

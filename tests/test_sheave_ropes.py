@@ -7,7 +7,7 @@ from comprope.drive.parameters import Profile
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.fmi.instance import Instance
 from comprope.rope.model_file import dump, load, with_changes
-from comprope.rope.runtime.parameter_vector import ELEMENT, slot
+from comprope.rope.parameters.parameter_vector import ELEMENT, slot
 from comprope.rope.simulator.cosimulation import interface
 from comprope.rope.simulator.parameter_directions import parameter_change
 from comprope_system.modal.modes import modes

@@ -5,11 +5,11 @@ import pytest
 
 from comprope.errors import InputError
 from comprope.rope.effects import REGISTRY
-from comprope.rope.effects.trial_state import NODES, TrialState
+from comprope.rope.effects.checks.trial_state import NODES, TrialState
 from comprope.rope.model_file import with_changes
+from comprope.rope.parameters.parameter_vector import PIT, slot
 from comprope.rope.runtime.array_layout import DXX
 from comprope.rope.runtime.kernel_arguments import Weights
-from comprope.rope.runtime.parameter_vector import PIT, slot
 from comprope.rope.simulator.rope import CompensationRope
 
 from .random_rope import forces, random_state

@@ -10,10 +10,10 @@ from scipy.integrate import solve_ivp
 from comprope.drive.parameters import Profile
 from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.rope.effects import REGISTRY
-from comprope.rope.effects.trial_state import NODES, TrialState
+from comprope.rope.effects.checks.trial_state import NODES, TrialState
 from comprope.rope.mechanics import axial_law, internal_tangent
+from comprope.rope.parameters.parameter_vector import EA, ELEMENT, RATIO
 from comprope.rope.runtime.array_layout import INVERSE, SXX, SXY, SYY, TX, TY
-from comprope.rope.runtime.parameter_vector import EA, ELEMENT, RATIO
 from comprope.rope.simulator.rope import CompensationRope
 from comprope.rope.simulator.sensitive_rope import SensitiveRope
 

@@ -124,7 +124,7 @@ def _sizes() -> str:
 
     from ..kernels.entry_source import flattened
     from ..rope.compiler.workspace import RopeWorkspace
-    from ..rope.runtime.parameter_vector import DECLARED
+    from ..rope.parameters.parameter_vector import DECLARED
 
     ropes = {n: flattened(*RopeWorkspace(n, np.zeros(len(DECLARED))).groups) for n in _NODES}
     return json.dumps({n: {name: np.size(array) for name, array in fields.items()} for n, fields in ropes.items()})

@@ -10,7 +10,7 @@ from ..rope.compiler.workspace import without_friction
 from ..rope.effects.base import REGISTRY, Effect
 from ..rope.effects.user_effects import FILES
 from ..rope.integration.outputs import OUTPUTS
-from ..rope.runtime.parameter_vector import DECLARED
+from ..rope.parameters.parameter_vector import DECLARED
 from ..rope.runtime.status import MESSAGES
 from ..rope.simulator.end_motion import NAMES
 from .component import Component

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from comprope.errors import InputError
-from comprope.rope.building import Building
 from comprope.rope.effects import RopeModel
+from comprope.rope.parameters import Building
 
 from ..measurements.columns.column_names import clock_columns, find_column
 from ..measurements.columns.readings import numbers_of, written_unit

@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from scipy.signal import welch
 
 from comprope.atomic_files import atomic_write
-from comprope.rope.building import Building
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import dump
+from comprope.rope.parameters import Building
 
 from ..report.page import Picture, Section, save_page
 from ..report.plot_style import COLOURS, label, legend, panels

@@ -23,17 +23,15 @@ from scipy.sparse import coo_array, csc_array
 from comprope.rope.mechanics import (
     axial_law,
     base_motion,
-    contact_law,
-    contact_tangent,
     effect_hooks,
     equations_of_motion,
     internal_forces,
     internal_tangent,
-    sheave_contact,
 )
+from comprope.rope.mechanics.contact import contact_law, contact_tangent, sheave_contact
+from comprope.rope.parameters.parameter_vector import C
 from comprope.rope.runtime import array_layout
 from comprope.rope.runtime.kernel_arguments import Motion, Weights, Workspace
-from comprope.rope.runtime.parameter_vector import C
 from comprope.rope.simulator.rope import CompensationRope
 
 Floats = NDArray[np.float64]

@@ -22,7 +22,7 @@ from ..measurements.motion.anchoring import Landings
 from ..measurements.motion.recover import Motion
 from ..measurements.runs.end_motions import EndSignals, recover_ends
 from ..measurements.runs.run_table import present_channels, read_run_table
-from .trip_simulation import Timing
+from .timing import Timing
 
 Floats = NDArray[np.float64]
 

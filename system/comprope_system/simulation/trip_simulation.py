@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import ceil, inf
 from pathlib import Path
 from typing import Any
 
@@ -10,14 +9,13 @@ import numpy as np
 import pandas as pd
 
 from comprope.atomic_files import atomic_write
-from comprope.errors import InputError
 from comprope.rope.parameters import Base
 
 from ..building_motion.motion import BuildingMotion
 from ..cosim import Sample, co_simulate
-from ..cosim.master import Coupling
 from .elevator import Elevator
 from .result_columns import Column, columns, lateral_output, view_output
+from .timing import Timing
 
 Progress = Callable[[int, int], None]
 
@@ -34,29 +32,6 @@ class Simulated:
         """Write the table, completely or not at all; missing values are empty cells."""
         with atomic_write(path) as temporary:
             self.table.to_csv(temporary, index=False, float_format="%.9g", lineterminator="\n")
-
-
-@dataclass(frozen=True)
-class Timing:
-    """Simulated time and communication step [s], the coupling of drive and rope, first time and a run-up before it [s]."""
-
-    duration: float
-    step: float = 0.01
-    coupling: Coupling = "two-way"
-    begin: float = 0.0
-    run_up: float = 0.0
-
-    @property
-    def steps_before(self) -> int:
-        """Communication steps of the run-up, which are not recorded."""
-        return ceil(self.run_up / self.step * (1.0 - 1e-9))
-
-    def __post_init__(self) -> None:
-        """Raises `InputError` for impossible times."""
-        if not 0.0 < self.duration < inf:
-            raise InputError(f"duration = {self.duration:g} s: a number above 0 is accepted")
-        if not 0.0 < self.step <= self.duration:
-            raise InputError(f"communication step = {self.step:g} s: above 0 to the duration, {self.duration:g} s, is accepted")
 
 
 def simulate(elevator: Elevator, sensors: Sequence[str], timing: Timing, progress: Progress | None = None) -> Simulated:

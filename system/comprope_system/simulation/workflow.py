@@ -30,7 +30,8 @@ from .measured_run import MotionWishes, Run, measured_timing, read_run
 from .result import SimulationResult
 from .stop import LARGEST, Stop, braking
 from .stop_motion import Trajectory, stopped_motions
-from .trip_simulation import Timing, relative_to_building
+from .timing import Timing
+from .trip_simulation import relative_to_building
 from .trip_simulation import simulate as simulate_trip
 
 BEYOND = 1e5  # m, destination of a car that does not stop by itself

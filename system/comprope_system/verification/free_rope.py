@@ -13,9 +13,9 @@ import numpy as np
 from comprope.rope.integration import newmark
 from comprope.rope.linalg import block_band
 from comprope.rope.mechanics import internal_forces, internal_tangent
+from comprope.rope.parameters.parameter_vector import vector
 from comprope.rope.runtime import array_layout
 from comprope.rope.runtime.kernel_arguments import Motion
-from comprope.rope.runtime.parameter_vector import vector
 
 from ..prescribed_trip import Floats
 

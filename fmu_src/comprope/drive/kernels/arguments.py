@@ -3,7 +3,7 @@
 from typing import Any, NamedTuple
 
 from ...kernels.entry_source import Array, Tables
-from ..parameter_checks import INTERVALS
+from ..parameters.parameter_checks import INTERVALS
 
 # Of the hoist: states, then inputs (see `hoist_dynamics`); `vector` has both.
 S, X_C, X_W, V_S, V_C, V_W, T_C, T_W, FORCE, F_C, F_W = range(11)

@@ -4,7 +4,7 @@ from math import isfinite
 
 from ...kernels.jit import kernel
 from ...kernels.status import SUCCESS
-from ..parameter_checks import check_curve, check_impulses, check_smoothing, check_stops
+from ..parameters.parameter_checks import check_curve, check_impulses, check_smoothing, check_stops
 from ..status import (
     CALL_OUTSIDE,
     CAR_NOT_FINITE,

@@ -1,7 +1,7 @@
 """The hoist's equations of motion about a car position; see `hoist_dynamics`, which has them for python-control."""
 
 from ...kernels.jit import kernel
-from .arguments import F_C, F_W, FORCE, MATRIX, ROW, T_C, T_W, V_C, V_S, V_W, X_C, X_W, S
+from .arguments import F_C, F_W, FORCE, MATRIX, REST_CAR, REST_COUNTERWEIGHT, ROW, T_C, T_W, V_C, V_S, V_W, X_C, X_W, S
 from .parameter_vector import (
     CAR_MASS,
     COUNTERWEIGHT_MASS,
@@ -12,6 +12,7 @@ from .parameter_vector import (
     INERTIA,
     RADIUS,
     ROPE_MASS,
+    START_POSITION,
     STIFFNESS,
 )
 
@@ -44,6 +45,12 @@ def force_at_rest(p, position, car_pull, counterweight_pull):
     car_rope, counterweight_rope, _, _, _ = lumped_masses(p, position)
     ropes = p[ROPE_MASS] * (car_rope - counterweight_rope)
     return p[GRAVITY] * (p[CAR_MASS] - p[COUNTERWEIGHT_MASS] + ropes) + car_pull - counterweight_pull
+
+
+@kernel
+def rest_force(p, servo):
+    """The force at the rim that holds the hoist in the equilibrium at the start [N]."""
+    return force_at_rest(p, p[START_POSITION], servo[REST_CAR], servo[REST_COUNTERWEIGHT])
 
 
 @kernel

@@ -2,9 +2,10 @@
 
 from ...kernels.jit import kernel
 from .arguments import BEGIN, FORCE, POINT, RATES, REALS, ROW, V_C, V_W, X_C, X_W, Design, Outputs, Parameters, S, State
+from .clock import now
+from .hoist import rest_force
 from .parameter_vector import HEIGHT, RADIUS, START_POSITION
-from .reference import reference_at, reference_end
-from .stepping import now, rest_force
+from .reference.shaped_trip import reference_at, reference_end
 
 
 @kernel

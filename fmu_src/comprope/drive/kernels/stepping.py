@@ -42,8 +42,9 @@ from .arguments import (
     Workspace,
 )
 from .checks import check_torque
+from .clock import now
 from .design import advance_matrix
-from .hoist import force_at_rest
+from .hoist import rest_force
 from .parameter_vector import (
     FIRST_DESTINATION,
     FIRST_START,
@@ -57,22 +58,10 @@ from .parameter_vector import (
     TORQUE_LIMIT,
     VELOCITY_FEEDFORWARD,
 )
-from .reference import plan_trip, reference_at, reference_end
+from .reference.shaped_trip import plan_trip, reference_at, reference_end
 
 SAME_TIME = 1e-6  # times closer than this fraction of a sample period are equal: importers accumulate steps
 MOST_PERIODS = 1e6  # of the controller in one communication step: a second of computation
-
-
-@kernel
-def now(p, clock):
-    """The time reached [s]."""
-    return clock[START_TIME] + (clock[PERIODS] * p[SAMPLE_PERIOD] + clock[ELAPSED])
-
-
-@kernel
-def rest_force(p, servo):
-    """The force at the rim that holds the hoist in the equilibrium at the start [N]."""
-    return force_at_rest(p, p[START_POSITION], servo[REST_CAR], servo[REST_COUNTERWEIGHT])
 
 
 @kernel

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...kernels.kernel_linking import uncompiled
-from ..kernels import free_curve
 from ..kernels.arguments import (
     ACCELERATIONS,
     BEGIN,
@@ -25,6 +24,7 @@ from ..kernels.arguments import (
     SPEEDS,
     TRIP,
 )
+from ..kernels.reference import free_curve
 from ..parameters import Curve, Profile
 from .s_curve import TrajectoryPoint
 

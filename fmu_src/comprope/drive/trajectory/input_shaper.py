@@ -13,13 +13,13 @@ weights are positive and sum to one: shaping exceeds no limit of speed, accelera
 """
 
 from ...kernels.kernel_linking import uncompiled
-from ..kernels import reference
 from ..kernels.arguments import DELAYS, TRIP, WEIGHTS
+from ..kernels.reference import shaped_trip
 from ..parameters import Shaper
 
 Impulses = tuple[tuple[float, float], ...]  # delays [s] and weights
 NO_SHAPING: Impulses = ((0.0, 1.0),)
-_KERNELS = uncompiled(reference)
+_KERNELS = uncompiled(shaped_trip)
 
 
 def impulses(shaper: Shaper, stops: tuple[float, float], height: float) -> Impulses:

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...kernels.kernel_linking import uncompiled
-from ..kernels import free_curve, reference, s_curve
 from ..kernels.arguments import DELAYS, IMPULSES, SMOOTHING, TRIP, WEIGHTS
+from ..kernels.reference import free_curve, s_curve, shaped_trip
 from ..parameters import Drive
 from .free_curve import FreeCurve, plan_free_curve
 from .input_shaper import NO_SHAPING, Impulses, impulses
 from .s_curve import SCurve, TrajectoryPoint, plan_s_curve
 
-_KERNELS = uncompiled(s_curve, free_curve, reference)
+_KERNELS = uncompiled(s_curve, free_curve, shaped_trip)
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...kernels.kernel_linking import uncompiled
-from ..kernels import s_curve
 from ..kernels.arguments import CRUISE, JERK, PLATEAU, RAMP, TRIP
+from ..kernels.reference import s_curve
 from ..parameters import Profile
 
 _KERNELS = uncompiled(s_curve)

@@ -22,7 +22,7 @@ from ...kernels.joined import entries_of, entries_text, joined_module
 from ...kernels.kernel_linking import linked, merged
 from ..effects import REGISTRY, numerical_tangent
 from ..effects.base import HOOKS, Effect
-from ..effects.kernel_checks import require_consistent
+from ..effects.checks.kernel_checks import require_consistent
 from ..effects.user_effects import FILES
 from ..integration import (
     derivative_hook,
@@ -38,8 +38,6 @@ from ..linalg import block_band, bordered_band, multi_rhs
 from ..mechanics import (
     axial_law,
     base_motion,
-    contact_law,
-    contact_tangent,
     effect_hooks,
     end_conditions,
     energy,
@@ -48,9 +46,10 @@ from ..mechanics import (
     internal_tangent,
     run_record,
     sensors,
-    sheave_contact,
 )
-from ..runtime import array_layout, kernel_arguments, parameter_vector, simd, status
+from ..mechanics.contact import contact_law, contact_tangent, sheave_contact
+from ..parameters import parameter_vector
+from ..runtime import array_layout, kernel_arguments, simd, status
 from ..runtime.kernel_arguments import TABLE, Directions
 from ..sensitivity import directions
 from ..sensitivity import effects as effect_derivatives

@@ -12,9 +12,9 @@ from ..integration.outputs import OUTPUTS
 from ..integration.state import empty_state
 from ..linalg import block_band, bordered_band
 from ..mechanics.end_conditions import PATH, PATHS
+from ..parameters.parameter_vector import DECLARED, MU, slot
 from ..runtime import array_layout
 from ..runtime.kernel_arguments import Array, Ends, Motion, Outputs, RopeData, State, Workspace
-from ..runtime.parameter_vector import DECLARED, MU, slot
 from .entry_points import compiled
 
 

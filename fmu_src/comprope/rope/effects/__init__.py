@@ -12,11 +12,13 @@ from ..parameters import Base
 # isort: off
 # The order of these modules is that of the effects in the parameter vector and among the FMU's variables, whose value
 # references hosts keep: a new effect comes last.
-from . import air_drag, bending_hysteresis, intrinsic_curvature, end_displacement
+from .shaft import air_drag
+from . import bending_hysteresis, intrinsic_curvature, end_displacement
 from .sheave import sheave_eccentricity, sheave_friction, end_stops, tie_down
-from . import shaft_walls
-from .sheave import sheave_unbalance, jammed_seal, jammed_guide, sticky_guide
-from . import rope_guides, encoder_scale
+from .shaft import shaft_walls
+from .sheave import sheave_unbalance, jammed, sticky_guide
+from .shaft import rope_guides
+from . import encoder_scale
 from .sheave import sloped_guide
 # isort: on
 
@@ -25,7 +27,7 @@ from .base import HOOKS, INSTRUMENT, REGISTRY, Effect, acts, register
 
 __all__ = [
     "HOOKS", "INSTRUMENT", "REGISTRY", "Effect", "RopeModel", "acts", "air_drag", "bending_hysteresis", "encoder_scale",
-    "end_displacement", "end_stops", "intrinsic_curvature", "jammed_guide", "jammed_seal", "model_type", "names_of", "register",
+    "end_displacement", "end_stops", "intrinsic_curvature", "jammed", "model_type", "names_of", "register",
     "rope_guides", "shaft_walls", "sheave_eccentricity", "sheave_friction", "sheave_unbalance", "sloped_guide", "sticky_guide",
     "tie_down", "user_effects",
 ]  # fmt: skip

@@ -23,7 +23,7 @@ from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...quantities import Component
-from ..runtime import parameter_vector
+from ..parameters import parameter_vector
 from ..runtime.kernel_arguments import Weights
 
 Kernel = Callable[..., Any]

@@ -10,8 +10,8 @@ from typing import ClassVar
 
 from ...kernels.jit import kernel
 from ...quantities import quantity
+from ..parameters.parameter_vector import ELEMENT, slot
 from ..runtime.array_layout import BEND_RATE, CURVATURE, MOMENT, STIFF
-from ..runtime.parameter_vector import ELEMENT, slot
 from .base import Effect, acts, register
 
 

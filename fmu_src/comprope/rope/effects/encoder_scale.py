@@ -7,7 +7,7 @@ counterweight moves by as much the other way, since the hoist ropes join both.
 
 from ...kernels.jit import kernel
 from ...quantities import quantity
-from ..runtime.parameter_vector import slot
+from ..parameters.parameter_vector import slot
 from .base import Effect, acts, register
 
 

@@ -2,8 +2,8 @@
 
 from ...kernels.jit import kernel
 from ...quantities import quantity
+from ..parameters.parameter_vector import EI, ELEMENT, slot
 from ..runtime.array_layout import BEND_RATE, MOMENT
-from ..runtime.parameter_vector import EI, ELEMENT, slot
 from .base import Effect, acts, register
 
 

@@ -2,8 +2,8 @@
 
 from ...kernels.jit import kernel
 from ...quantities import quantity
+from ..parameters.parameter_vector import slot
 from ..runtime import array_layout as work
-from ..runtime.parameter_vector import slot
 from .base import Effect, acts, register
 
 __all__ = ["Effect", "acts", "kernel", "quantity", "register", "slot", "work"]

@@ -18,10 +18,10 @@ from typing import Any
 from ... import consent
 from ...atomic_files import read_text_file
 from ...errors import CompropeError, InputError
-from ..runtime.parameter_vector import DECLARED
+from ..parameters.parameter_vector import DECLARED
 from . import public_names
 from .base import REGISTRY
-from .file_checks import FileError, refuse_imports, require_declared
+from .checks.file_checks import FileError, refuse_imports, require_declared
 
 API = "comprope.effect"  # the module that such a file imports; see `_api_importable`
 

@@ -8,8 +8,8 @@ from ..mechanics.end_conditions import PATH, PATHS, place_ends_of_state
 from ..mechanics.energy import begin_balance
 from ..mechanics.equations_of_motion import forces_of_state
 from ..mechanics.run_record import record_step, slack_segments
+from ..parameters.parameter_vector import ELEMENT, HEIGHT, PIT, RATIO, R
 from ..runtime.kernel_arguments import Ends, Motion, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import ELEMENT, HEIGHT, PIT, RATIO, R
 from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_PLACE, OUT_OF_REACH, SUCCESS
 from .inputs import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
 from .mesh import MASS, rope_length

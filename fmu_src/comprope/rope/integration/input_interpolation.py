@@ -8,8 +8,8 @@ hold for the end of the step. See `simulator.end_motion`.
 
 from ...kernels.jit import kernel
 from ..mechanics.end_conditions import PATH, PATHS, follow
+from ..parameters.parameter_vector import R
 from ..runtime.kernel_arguments import Ends, RopeData, Workspace
-from ..runtime.parameter_vector import R
 from ..runtime.status import SUCCESS, TOO_FAR, TOO_FAST
 from .inputs import BASE_A, CAR, CAR_OUT, CAR_V, COUNTERWEIGHT, COUNTERWEIGHT_OUT, COUNTERWEIGHT_V
 

@@ -3,8 +3,8 @@
 from math import pi, sqrt
 
 from ...kernels.jit import kernel
+from ..parameters.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, J, K, M, R, slot
 from ..runtime.kernel_arguments import RopeData, Workspace
-from ..runtime.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, J, K, M, R, slot
 from ..runtime.status import SUCCESS, TOO_COARSE
 
 LENGTH = slot("rope.element_length")

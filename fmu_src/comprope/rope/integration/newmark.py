@@ -21,12 +21,12 @@ from typing import NamedTuple
 from ...kernels.jit import kernel
 from ..linalg.block_band import back_substitute, factor, forward_substitute
 from ..linalg.bordered_band import assemble_bordered, factor_bordered, solve_bordered
+from ..mechanics.contact.sheave_contact import find_contact_range
 from ..mechanics.end_conditions import place_ends
 from ..mechanics.equations_of_motion import forces, node_mass, tangent_band
-from ..mechanics.sheave_contact import find_contact_range
+from ..parameters.parameter_vector import ALPHA, ELEMENT, J, M, R
 from ..runtime.array_layout import FIRST, LAST
 from ..runtime.kernel_arguments import Weights
-from ..runtime.parameter_vector import ALPHA, ELEMENT, J, M, R
 
 TOLERANCE = 1e-8  # m
 ITERATIONS = 12

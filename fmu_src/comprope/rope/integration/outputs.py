@@ -5,9 +5,9 @@ from ..mechanics.energy import EFFECTS, ENDS_WORK, LOSSES, SPENT, STORED, hold_f
 from ..mechanics.equations_of_motion import forces_of_state
 from ..mechanics.run_record import PEAK, SLACK_TIME, TRIP_TIME, TRIPPED, largest_tension, least_tension, slack_segments
 from ..mechanics.sensors import find_side_maximum, read_sensor
+from ..parameters.parameter_vector import ELEMENT, PIT, R
 from ..runtime.array_layout import FORCE_X
 from ..runtime.kernel_arguments import Outputs, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import ELEMENT, PIT, R
 from .newmark import HALVED, NEWTON
 
 KINDS, SPENDERS = len(STORED), len(SPENT)

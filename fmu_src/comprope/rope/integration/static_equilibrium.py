@@ -12,9 +12,9 @@ from ..linalg.block_band import back_substitute, factor
 from ..linalg.bordered_band import assemble_bordered, factor_bordered, solve_bordered
 from ..mechanics.equations_of_motion import forces, tangent_band
 from ..mechanics.run_record import slack_segments
+from ..parameters.parameter_vector import ELEMENT, RATIO
 from ..runtime.array_layout import COLUMNS, CONTACT, DYY, FIRST, LAST, ROWS
 from ..runtime.kernel_arguments import Weights
-from ..runtime.parameter_vector import ELEMENT, RATIO
 
 TOLERANCE_AT_REST = 1e-11  # m, the last correction
 MOST_ITERATIONS = 400

@@ -6,8 +6,8 @@ from ...kernels.jit import kernel
 from ..mechanics.end_conditions import PATH
 from ..mechanics.energy import update_balance
 from ..mechanics.run_record import SLACK_NOW, pushed_segments, record_step
+from ..parameters.parameter_vector import BASE, BASE_BEFORE, ELEMENT, RATIO, slot
 from ..runtime.kernel_arguments import Directions, Ends, Motion, RopeData, State, TimeStep, Workspace
-from ..runtime.parameter_vector import BASE, BASE_BEFORE, ELEMENT, RATIO, slot
 from ..runtime.status import LOST, LOST_AT_SHEAVE, SUCCESS, TOO_MANY_STEPS
 from .derivative_hook import advance_directions
 from .newmark import HALVED, MOST_HALVINGS, STEPS, WORST, copy, newmark_step

@@ -12,8 +12,8 @@ in strain rate, so the difference between T and its part without damping always 
 """
 
 from ...kernels.jit import kernel
+from ..parameters.parameter_vector import CA, EA, ELEMENT, RATIO
 from ..runtime.array_layout import INVERSE, SHARE, TENSION, TX, TY
-from ..runtime.parameter_vector import CA, EA, ELEMENT, RATIO
 
 # Strain over which the rope loses its stiffness. With EA = rho c^2 and c near 2.6 km/s, the speed of axial waves in steel ropes,
 # the compression that remains is rho c^2 SLACK_STRAIN / 2, the weight of 3.4 m of rope, whatever its size. At a fifth of it

@@ -5,7 +5,7 @@ held by its guides, which are part of the base.
 """
 
 from ...kernels.jit import kernel
-from ..runtime.parameter_vector import BASE, ELEMENT, RHO
+from ..parameters.parameter_vector import BASE, ELEMENT, RHO
 
 
 @kernel

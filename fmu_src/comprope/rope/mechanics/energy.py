@@ -10,8 +10,8 @@ slack rope starts waves that are shorter than the step, which is to the balance 
 from math import sqrt
 
 from ...kernels.jit import kernel
+from ..parameters.parameter_vector import BASE, BASE_BEFORE, CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
 from ..runtime.array_layout import BEND_RATE, CURVATURE, ELASTIC, FRICTION_LOSS, INVERSE, NORMAL_LOSS, SHARE, TENSION, TX, TY
-from ..runtime.parameter_vector import BASE, BASE_BEFORE, CA, CB, CE, EA, EI, ELEMENT, RHO, G, J, M
 from .axial_law import elastic_energy, slack_balance
 from .base_motion import base_work
 

@@ -4,14 +4,14 @@ Effects act through the functions of `effect_hooks`.
 """
 
 from ...kernels.jit import kernel
+from ..parameters.parameter_vector import BASE, ELEMENT, RHO, G, J, M
 from ..runtime.array_layout import DXX, DXY, DYY
 from ..runtime.kernel_arguments import Motion, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import BASE, ELEMENT, RHO, G, J, M
 from .base_motion import add_base_inertia
+from .contact.sheave_contact import add_contact
 from .effect_hooks import all_forces, all_moments, all_tangents
 from .internal_forces import bend, stretch, sum_forces
 from .internal_tangent import assemble, bending_stiffness, fix_end_rows, segment_blocks
-from .sheave_contact import add_contact
 
 
 @kernel

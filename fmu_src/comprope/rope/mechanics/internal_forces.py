@@ -15,8 +15,8 @@ continuous rope up to fourth order; the contact is placed to match (see `sheave_
 from math import sqrt
 
 from ...kernels.jit import kernel
+from ..parameters.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RATIO, RHO, G
 from ..runtime.array_layout import BEND_RATE, CURVATURE, FX, FY, INVERSE, MOMENT, SHARE, SHEAR, SPIN, STIFF, TENSION, TX, TY
-from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RATIO, RHO, G
 from .axial_law import relieve_compression
 
 

@@ -7,6 +7,7 @@ Newton's iteration does not notice.
 """
 
 from ...kernels.jit import kernel
+from ..parameters.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO
 from ..runtime.array_layout import (
     BENDING,
     DXX,
@@ -33,7 +34,6 @@ from ..runtime.array_layout import (
     WX,
     WY,
 )
-from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RHO
 
 
 @kernel

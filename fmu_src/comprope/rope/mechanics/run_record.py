@@ -1,8 +1,8 @@
 """What a run has seen at any of its time steps: slack rope, the largest tension, and the sheave's limit switch."""
 
 from ...kernels.jit import kernel
+from ..parameters.parameter_vector import EA, PIT, RATIO, SWITCH
 from ..runtime.array_layout import SHARE, TENSION
-from ..runtime.parameter_vector import EA, PIT, RATIO, SWITCH
 from .axial_law import SLACK_STRAIN
 
 # Entries of State.record: segments that are slack now, time with slack rope [s], largest tension [N], whether the switch has

@@ -12,9 +12,9 @@ from ...kernels.jit import kernel
 from ..mechanics.axial_law import axial_force
 from ..mechanics.effect_hooks import all_forces, all_moments
 from ..mechanics.internal_forces import bend
+from ..parameters.parameter_vector import CA, EA, ELEMENT, R
 from ..runtime.array_layout import FX, INVERSE, MOMENT, SPIN, TENSION, TX, TY
 from ..runtime.kernel_arguments import Array, Motion
-from ..runtime.parameter_vector import CA, EA, ELEMENT, R
 from ..runtime.simd import LANES
 from .directions import difference_step, first_entry, shift_parameters
 

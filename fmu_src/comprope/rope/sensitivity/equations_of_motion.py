@@ -3,8 +3,8 @@
 from ...kernels.jit import kernel
 from ..integration.newmark import copy
 from ..mechanics.equations_of_motion import forces_of_state
+from ..parameters.parameter_vector import R
 from ..runtime.kernel_arguments import Directions, Motion, RopeData, State, Weights, Workspace
-from ..runtime.parameter_vector import R
 from ..runtime.simd import LANES
 from .directions import difference_step, first_entry, shift_parameters
 from .effects import (

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from ...kernels.jit import kernel
 from ..mechanics.axial_law import force_by_ratio
+from ..parameters.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RATIO, RHO, G, J, M
 from ..runtime.array_layout import BEND_RATE, CURVATURE, INVERSE, SHARE, SHEAR, SPIN, TENSION, TX, TY
-from ..runtime.parameter_vector import CA, CB, CE, EA, EI, ELEMENT, RATIO, RHO, G, J, M
 from ..runtime.simd import LANES, load, store
 
 

@@ -16,12 +16,12 @@ from ...kernels.jit import kernel
 from ..integration.newmark import factor_tangent, newmark_weights, time_rule
 from ..linalg.bordered_band import assemble_bordered, factor_bordered
 from ..linalg.multi_rhs import solve_lanes
-from ..mechanics.contact_tangent import clear_contact_tangent
+from ..mechanics.contact.contact_tangent import clear_contact_tangent
+from ..mechanics.contact.sheave_contact import add_pieces, place_groove
 from ..mechanics.equations_of_motion import forces, node_mass
-from ..mechanics.sheave_contact import add_pieces, place_groove
+from ..parameters.parameter_vector import ALPHA, J, M
 from ..runtime.array_layout import FIRST, LAST
 from ..runtime.kernel_arguments import Motion, Weights
-from ..runtime.parameter_vector import ALPHA, J, M
 from ..runtime.simd import LANES, load, store
 from .effects import advance_histories, any_changed_effects, present_effect_forces
 from .end_conditions import place_ends_of_directions

@@ -2,8 +2,8 @@
 
 from ...kernels.jit import kernel
 from ..mechanics.sensors import crossing, read_sensor
+from ..parameters.parameter_vector import R
 from ..runtime.kernel_arguments import Directions, Outputs, RopeData, State
-from ..runtime.parameter_vector import R
 from ..runtime.simd import LANES
 
 

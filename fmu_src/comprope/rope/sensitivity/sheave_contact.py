@@ -12,10 +12,10 @@ How the groove's centre itself answers is read off `place_groove` by differences
 from math import sqrt
 
 from ...kernels.jit import kernel
-from ..mechanics.contact_law import FADE, POINTS, contact_radius, friction_law, normal_law, shape
-from ..mechanics.sheave_contact import near, place_groove
+from ..mechanics.contact.contact_law import FADE, POINTS, contact_radius, friction_law, normal_law, shape
+from ..mechanics.contact.sheave_contact import near, place_groove
+from ..parameters.parameter_vector import ELEMENT, MU, V0, C, K, R
 from ..runtime.array_layout import FIRST, LAST
-from ..runtime.parameter_vector import ELEMENT, MU, V0, C, K, R
 from ..runtime.simd import LANES, load, store
 from .internal_forces import predicted
 

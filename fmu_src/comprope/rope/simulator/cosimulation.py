@@ -10,7 +10,7 @@ from ...fmi.model_interface import ModelInterface, Value
 from ..effects import REGISTRY
 from ..model_file import validated
 from ..parameters import Base
-from ..runtime.parameter_vector import COMPONENTS, DECLARED
+from ..parameters.parameter_vector import COMPONENTS, DECLARED
 from .end_motion import EndMotion
 from .rope import CompensationRope
 from .variables import ENDS, TERMINAL, variables_of

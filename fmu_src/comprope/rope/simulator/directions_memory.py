@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..mechanics.end_conditions import PATH, PATHS
+from ..parameters.parameter_vector import R
 from ..runtime.kernel_arguments import Array, Directions, DirectionsWorkspace
-from ..runtime.parameter_vector import R
 from ..runtime.simd import LANES
 from .parameter_directions import (
     Direction,

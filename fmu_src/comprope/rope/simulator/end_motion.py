@@ -15,8 +15,8 @@ from ..compiler.entry_points import compiled
 from ..compiler.workspace import empty_ends, empty_workspace
 from ..integration import input_interpolation
 from ..integration.state import empty_state
+from ..parameters.parameter_vector import DECLARED, R
 from ..runtime.kernel_arguments import Array, RopeData
-from ..runtime.parameter_vector import DECLARED, R
 from ..runtime.status import require_success
 
 ENDS = ("car", "counterweight")

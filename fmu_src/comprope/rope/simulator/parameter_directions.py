@@ -8,8 +8,8 @@ from ...errors import InputError
 from ...quantities import quantities
 from ..effects.base import REGISTRY
 from ..integration.mesh import INERTIA, MASS, ROPES, element_length
+from ..parameters.parameter_vector import DECLARED, ELEMENT, J, M, R, slot
 from ..runtime.kernel_arguments import Array
-from ..runtime.parameter_vector import DECLARED, ELEMENT, J, M, R, slot
 from ..sensitivity.effects import CHANGED_EFFECTS, CHANGED_HISTORY, NEW_EFFECTS, NO_EFFECTS
 from .rope import CompensationRope
 

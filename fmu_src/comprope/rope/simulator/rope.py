@@ -15,8 +15,8 @@ from ..integration.newmark import HALVED, NEWTON, STEPS
 from ..integration.outputs import OUTPUTS
 from ..mechanics import energy
 from ..parameters import Base
+from ..parameters.parameter_vector import COMPONENTS, ELEMENT, vector
 from ..runtime.kernel_arguments import Array, RopeData, State
-from ..runtime.parameter_vector import COMPONENTS, ELEMENT, vector
 from ..runtime.status import require_success
 
 SIDES = {"car": -1, "counterweight": 1}

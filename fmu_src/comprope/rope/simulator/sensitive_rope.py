@@ -14,8 +14,8 @@ from ..compiler.workspace import without_friction
 from ..integration.inputs import CAR, CAR_OUT, COUNTERWEIGHT, COUNTERWEIGHT_OUT
 from ..mechanics.end_conditions import PATH, PATHS
 from ..parameters import Base
+from ..parameters.parameter_vector import ALPHA, ELEMENT, PIT, RHO, R
 from ..runtime.kernel_arguments import Array
-from ..runtime.parameter_vector import ALPHA, ELEMENT, PIT, RHO, R
 from ..runtime.simd import LANES
 from ..sensitivity.effects import CHANGED_HISTORY
 from ..sensitivity.end_conditions import ENDS_STEP

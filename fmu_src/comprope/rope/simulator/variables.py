@@ -5,7 +5,7 @@ from typing import Any
 from ...fmi.model_interface import Kind, Terminal, Variable, parameters_of
 from ..effects import REGISTRY, names_of
 from ..parameters import Base
-from ..runtime.parameter_vector import COMPONENTS
+from ..parameters.parameter_vector import COMPONENTS
 from .rope import values_of
 
 ENDS = ("car", "counterweight")

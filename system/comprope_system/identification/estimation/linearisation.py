@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import with_changes
-from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.parameters.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import values_of
 
 from ..data.runs import Channel, Run

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comprope.rope.effects import RopeModel
-from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.parameters.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import values_of
 
 from ..data.campaign import Campaign

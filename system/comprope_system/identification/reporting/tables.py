@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.parameters.parameter_vector import DECLARED
 
 from ...report.page import Table
 from ..comparison.compare import Comparison

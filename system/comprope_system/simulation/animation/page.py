@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from comprope.rope.parameters import Base
-from comprope.rope.runtime.parameter_vector import DECLARED
+from comprope.rope.parameters.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import values_of
 
 from ...report.page import Animation, Picture, Section, Table, save_page

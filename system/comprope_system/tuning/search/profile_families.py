@@ -7,8 +7,7 @@ from the travel time.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from comprope.drive.parameter_checks import SHORTEST_SMOOTHING
-from comprope.drive.parameters import Drive, Profile, Shaper
+from comprope.drive.parameters import SHORTEST_SMOOTHING, Drive, Profile, Shaper
 from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory, reference_trajectory
 from comprope.drive.trajectory.s_curve import plan_s_curve
 

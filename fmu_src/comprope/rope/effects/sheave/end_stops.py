@@ -6,8 +6,9 @@ touch. A stop pushes only.
 
 from ....kernels.jit import kernel
 from ....quantities import quantity
+from ...mechanics.contact.contact_law import unilateral_law
+from ...parameters.parameter_vector import PIT, slot
 from ...runtime.array_layout import DXX
-from ...runtime.parameter_vector import PIT, slot
 from ..base import Effect, acts, register
 
 FADE = 1e-4  # m, depth over which the damping of a stop fades in, as that of the rope's contact
@@ -34,13 +35,7 @@ DOWN = slot("effects.end_stops.down")
 @kernel
 def stop_law(p, depth, rate):
     """Force of a stop [N] and its derivatives by depth and by rate."""
-    if depth <= 0.0:
-        return 0.0, 0.0, 0.0
-    fading = p[DAMPING] * depth / (depth + FADE)
-    force = p[STIFFNESS] * depth + fading * rate
-    if force <= 0.0:
-        return 0.0, 0.0, 0.0
-    return force, p[STIFFNESS] + p[DAMPING] * FADE / ((depth + FADE) * (depth + FADE)) * rate, fading
+    return unilateral_law(p[STIFFNESS], p[DAMPING], FADE, depth, rate)
 
 
 @kernel

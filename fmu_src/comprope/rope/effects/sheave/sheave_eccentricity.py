@@ -4,7 +4,7 @@ from math import cos, pi, sin
 
 from ....kernels.jit import kernel
 from ....quantities import quantity
-from ...runtime.parameter_vector import slot
+from ...parameters.parameter_vector import slot
 from ..base import Effect, acts, register
 
 

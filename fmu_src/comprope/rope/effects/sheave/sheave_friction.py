@@ -8,8 +8,8 @@ from typing import ClassVar
 
 from ....kernels.jit import kernel
 from ....quantities import quantity
+from ...parameters.parameter_vector import slot
 from ...runtime.array_layout import DXX, DYY
-from ...runtime.parameter_vector import slot
 from ..base import Effect, acts, register
 
 TURN0 = 0.01  # rad/s

@@ -12,8 +12,8 @@ from math import cos, pi, sin
 
 from ....kernels.jit import kernel
 from ....quantities import quantity
+from ...parameters.parameter_vector import G, slot
 from ...runtime.array_layout import DYY
-from ...runtime.parameter_vector import G, slot
 from ..base import Effect, acts, register
 
 

@@ -6,7 +6,7 @@ What presses the sheave sideways then moves it up or down too, by the slope's sh
 
 from ....kernels.jit import kernel
 from ....quantities import quantity
-from ...runtime.parameter_vector import PIT, slot
+from ...parameters.parameter_vector import PIT, slot
 from ..base import Effect, acts, register
 
 

@@ -8,8 +8,8 @@ from math import exp, sqrt
 
 from ....kernels.jit import kernel
 from ....quantities import quantity
+from ...parameters.parameter_vector import slot
 from ...runtime.array_layout import DXX
-from ...runtime.parameter_vector import slot
 from ..base import Effect, acts, register
 
 CREEP = 5e-4  # m/s, v_0; as that of the guides' plain friction

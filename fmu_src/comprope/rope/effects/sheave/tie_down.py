@@ -7,8 +7,8 @@ one-way one lets it fall freely. An anti-rebound device has c_down too.
 
 from ....kernels.jit import kernel
 from ....quantities import quantity
+from ...parameters.parameter_vector import slot
 from ...runtime.array_layout import DXX
-from ...runtime.parameter_vector import slot
 from ..base import Effect, acts, register
 
 BLEND = 0.01  # m/s over which the closing valve takes hold; regularisation

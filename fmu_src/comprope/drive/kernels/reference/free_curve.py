@@ -1,7 +1,7 @@
 """Free-form trips: accelerations at equal intervals of the travel time, linear in between; see `trajectory.free_curve`."""
 
-from ...kernels.jit import kernel
-from .arguments import ACCELERATIONS, BEGIN, DISTANCES, DURATION, END, INTEGRALS, INTERVALS, ORIGIN, SPEEDS
+from ....kernels.jit import kernel
+from ..arguments import ACCELERATIONS, BEGIN, DISTANCES, DURATION, END, INTEGRALS, INTERVALS, ORIGIN, SPEEDS
 
 
 @kernel

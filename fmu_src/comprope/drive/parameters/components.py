@@ -6,12 +6,12 @@ ropes 1:1, and two compensation ropes that weigh as much per metre as all hoist 
 
 from pydantic import model_validator
 
-from ..kernels.kernel_linking import uncompiled
-from ..kernels.status import MESSAGE_VALUES, SUCCESS, sentence
-from ..quantities import Component, quantity
+from ...kernels.kernel_linking import uncompiled
+from ...kernels.status import MESSAGE_VALUES, SUCCESS, sentence
+from ...quantities import Component, quantity
+from ..status import COMPONENT_TEXTS, MESSAGES
 from . import parameter_checks
 from .parameter_checks import INTERVALS
-from .status import COMPONENT_TEXTS, MESSAGES
 
 _CHECKS = uncompiled(parameter_checks)
 

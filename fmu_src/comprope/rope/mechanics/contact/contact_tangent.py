@@ -1,7 +1,7 @@
 """Tangent of the contact: derivative of a quadrature point's force, and where it goes in the blocks of nodes and sheave."""
 
-from ...kernels.jit import kernel
-from ..runtime.array_layout import COLUMNS, CONTACT, ROWS
+from ....kernels.jit import kernel
+from ...runtime.array_layout import COLUMNS, CONTACT, ROWS
 
 
 @kernel

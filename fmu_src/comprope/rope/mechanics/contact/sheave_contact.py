@@ -12,12 +12,12 @@ rope leaves the sheave where a continuous one does, both to fourth order in l / 
 
 from math import sqrt
 
-from ...kernels.jit import kernel
-from ..runtime.array_layout import CONTACT_RESULTS, ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, LAST, NORMAL_LOSS
-from ..runtime.parameter_vector import ELEMENT, K, R
+from ....kernels.jit import kernel
+from ...parameters.parameter_vector import ELEMENT, K, R
+from ...runtime.array_layout import CONTACT_RESULTS, ELASTIC, FIRST, FORCE_X, FRICTION_LOSS, LAST, NORMAL_LOSS
+from ..effect_hooks import all_groove, all_rail
 from .contact_law import POINTS, contact_radius, friction_law, normal_law, shape
 from .contact_tangent import add_force_tangent, add_torque_tangent, clear_contact_tangent, point_tangent
-from .effect_hooks import all_groove, all_rail
 
 
 @kernel

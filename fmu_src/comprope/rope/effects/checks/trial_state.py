@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mechanics import internal_forces
-from ..runtime.array_layout import BAND, SECTIONS
-from ..runtime.kernel_arguments import Weights
-from ..runtime.parameter_vector import DECLARED, ELEMENT, HEIGHT, PIT, R
-from .base import HOOKS, Effect, sections
+from ...mechanics import internal_forces
+from ...parameters.parameter_vector import DECLARED, ELEMENT, HEIGHT, PIT, R
+from ...runtime.array_layout import BAND, SECTIONS
+from ...runtime.kernel_arguments import Weights
+from ..base import HOOKS, Effect, sections
 
 Floats = NDArray[np.float64]
 NODES, TIME, CAR = 120, 0.3, 20.7

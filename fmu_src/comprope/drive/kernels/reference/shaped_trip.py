@@ -2,8 +2,8 @@
 
 from math import exp, pi, sqrt
 
-from ...kernels.jit import kernel
-from .arguments import (
+from ....kernels.jit import kernel
+from ..arguments import (
     ACCELERATIONS,
     BEGIN,
     DELAYS,
@@ -16,8 +16,7 @@ from .arguments import (
     SMOOTHING,
     WEIGHTS,
 )
-from .free_curve import free_curve_at, free_curve_integral, least_duration, set_knots
-from .parameter_vector import (
+from ..parameter_vector import (
     ACCELERATION_LIMIT,
     HEIGHT,
     IMPULSE_COUNT,
@@ -30,6 +29,7 @@ from .parameter_vector import (
     SPEED_LIMIT,
     TOLERANCE,
 )
+from .free_curve import free_curve_at, free_curve_integral, least_duration, set_knots
 from .s_curve import plan_s_curve_into, s_curve_at, s_curve_integral
 
 

@@ -8,11 +8,11 @@ outward on both sides at a fraction of the car's velocity; it needs the drag coe
 from math import copysign
 from typing import ClassVar
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DXX, DXY, DYY, TX, TY
-from ..runtime.parameter_vector import DIAMETER, ELEMENT, slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...parameters.parameter_vector import DIAMETER, ELEMENT, slot
+from ...runtime.array_layout import DXX, DXY, DYY, TX, TY
+from ..base import Effect, acts, register
 
 
 class AirDrag(Effect):

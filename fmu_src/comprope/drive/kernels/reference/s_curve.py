@@ -1,7 +1,7 @@
 """Jerk-limited trips from rest to rest, in closed form; see `trajectory.s_curve` for the phases."""
 
-from ...kernels.jit import kernel
-from .arguments import BEGIN, CRUISE, DURATION, END, JERK, ORIGIN, PLATEAU, RAMP
+from ....kernels.jit import kernel
+from ..arguments import BEGIN, CRUISE, DURATION, END, JERK, ORIGIN, PLATEAU, RAMP
 
 
 @kernel

@@ -3,10 +3,10 @@
 import ast
 import types
 
-from ...errors import InputError
-from ...kernels import jit
-from ...quantities import Quantity, quantities
-from .base import HOOKS, Effect, Kernel
+from ....errors import InputError
+from ....kernels import jit
+from ....quantities import Quantity, quantities
+from ..base import HOOKS, Effect, Kernel
 
 
 class FileError(Exception):
@@ -57,7 +57,7 @@ def _require_quantities(effect: type[Effect], line: int) -> None:
 
 
 def _quantity_problem(one: Quantity) -> str | None:
-    from ...fmi.units import exponents
+    from ....fmi.units import exponents
 
     try:
         exponents(one.unit)

@@ -13,11 +13,11 @@ distance from their height, whose sum over nodes is the same wherever these are.
 from math import copysign, cos, pi, sqrt
 from typing import ClassVar
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DXX, DYY
-from ..runtime.parameter_vector import ELEMENT, R, slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...parameters.parameter_vector import ELEMENT, R, slot
+from ...runtime.array_layout import DXX, DYY
+from ..base import Effect, acts, register
 
 SLOW = 0.02  # m/s, regularisation of the friction, as in the groove
 SIDES = (1.0, -1.0)

@@ -10,8 +10,8 @@ The damping fades in with penetration, so that it does not switch on at first to
 
 from math import sqrt
 
-from ...kernels.jit import kernel
-from ..runtime.parameter_vector import ELEMENT, MU, V0, C, K, R
+from ....kernels.jit import kernel
+from ...parameters.parameter_vector import ELEMENT, MU, V0, C, K, R
 
 FADE = 1e-4  # m, penetration over which contact damping fades in
 POINTS = 8  # quadrature points of a piece; with 4, what rests on the groove depends on where the nodes sit
@@ -34,15 +34,24 @@ def shape(g):
 
 
 @kernel
-def normal_law(p, depth, rate):
-    """Normal force per length P [N/m], its derivatives by depth and by rate; zero out of contact."""
+def unilateral_law(k, c, fade, depth, rate):
+    """max(0, k d + c d / (d + fade) dd/dt) of a contact that pushes only, and its derivatives by depth and by rate.
+
+    Zero out of contact; the damping fades in over the depth `fade`.
+    """
     if depth <= 0.0:
         return 0.0, 0.0, 0.0
-    fading = p[C] * depth / (depth + FADE)
-    force = p[K] * depth + fading * rate
+    fading = c * depth / (depth + fade)
+    force = k * depth + fading * rate
     if force <= 0.0:
         return 0.0, 0.0, 0.0
-    return force, p[K] + p[C] * FADE / ((depth + FADE) * (depth + FADE)) * rate, fading
+    return force, k + c * fade / ((depth + fade) * (depth + fade)) * rate, fading
+
+
+@kernel
+def normal_law(p, depth, rate):
+    """Normal force per length P [N/m] of the groove, and its derivatives by depth and by rate."""
+    return unilateral_law(p[K], p[C], FADE, depth, rate)
 
 
 @kernel

@@ -9,11 +9,12 @@ so that damping does not switch on at first touch. Over one element at either en
 
 from math import copysign, sqrt
 
-from ...kernels.jit import kernel
-from ...quantities import quantity
-from ..runtime.array_layout import DXX, DYY
-from ..runtime.parameter_vector import ELEMENT, R, slot
-from .base import Effect, acts, register
+from ....kernels.jit import kernel
+from ....quantities import quantity
+from ...mechanics.contact.contact_law import unilateral_law
+from ...parameters.parameter_vector import ELEMENT, R, slot
+from ...runtime.array_layout import DXX, DYY
+from ..base import Effect, acts, register
 
 FADE = 1e-4  # m, depth over which the damping fades in, as that of the groove
 SLOW = 0.02  # m/s, regularisation of the friction, as in the groove
@@ -52,11 +53,7 @@ def wall_share(p, height):
 @kernel
 def wall_law(p, depth, rate):
     """Force per length [N/m] of a wall, and its derivatives by depth and by rate."""
-    fading = p[DAMPING] * depth / (depth + FADE)
-    force = p[STIFFNESS] * depth + fading * rate
-    if force <= 0.0:
-        return 0.0, 0.0, 0.0
-    return force, p[STIFFNESS] + p[DAMPING] * FADE / ((depth + FADE) * (depth + FADE)) * rate, fading
+    return unilateral_law(p[STIFFNESS], p[DAMPING], FADE, depth, rate)
 
 
 @kernel

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from ..quantities import Component, quantity
+from ...quantities import Component, quantity
 from .building import Building
 
 DEFAULT_STEP = 0.004

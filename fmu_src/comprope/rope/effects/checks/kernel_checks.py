@@ -13,12 +13,12 @@ import numpy as np
 from numba.core.errors import NumbaError
 from numpy.typing import NDArray
 
-from ...errors import InputError
-from ...kernels import jit
-from ..runtime.array_layout import BAND, BEND_RATE, CURVATURE, MOMENT, STIFF
-from ..runtime.kernel_arguments import Weights
-from ..runtime.parameter_vector import ELEMENT
-from .base import HOOK_TYPES, HOOKS, Effect
+from ....errors import InputError
+from ....kernels import jit
+from ...parameters.parameter_vector import ELEMENT
+from ...runtime.array_layout import BAND, BEND_RATE, CURVATURE, MOMENT, STIFF
+from ...runtime.kernel_arguments import Weights
+from ..base import HOOK_TYPES, HOOKS, Effect
 from .trial_state import NODES, STEP, TIME, TrialState
 
 Floats = NDArray[np.float64]

@@ -1,8 +1,8 @@
 """Checks of parameters that belong together. Each returns a status; they know no other kernels, since pydantic calls them too."""
 
-from ..kernels.jit import kernel
-from ..kernels.status import SUCCESS
-from .status import BOTH_OUTSIDE, DESTINATION_OUTSIDE, DOES_NOT_STOP, NOT_WHOLE, REVERSES, SMOOTHING_TOO_SHORT, START_OUTSIDE
+from ...kernels.jit import kernel
+from ...kernels.status import SUCCESS
+from ..status import BOTH_OUTSIDE, DESTINATION_OUTSIDE, DOES_NOT_STOP, NOT_WHOLE, REVERSES, SMOOTHING_TOO_SHORT, START_OUTSIDE
 
 INTERVALS = 20  # intervals of the travel time, for free-form trips
 SHORTEST_SMOOTHING = 0.01  # s, shortest moving average; below it rounding errors dominate

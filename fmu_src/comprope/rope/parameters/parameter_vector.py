@@ -12,7 +12,7 @@ from dataclasses import replace
 from ...errors import InputError
 from ...quantities import Component, Quantity, quantities
 from ...validation_messages import suggestion
-from ..parameters import Contact, Rope, Shaft, Sheave, Solver
+from .components import Contact, Rope, Shaft, Sheave, Solver
 
 COMPONENTS: dict[str, type[Component]] = {"shaft": Shaft, "rope": Rope, "sheave": Sheave, "contact": Contact, "solver": Solver}
 

@@ -4,8 +4,8 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from ..quantities import Component
-from ..quantities import quantity as number
+from ...quantities import Component
+from ...quantities import quantity as number
 
 
 class Building(Component):
