@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 
 import comprope_system
 from comprope_system import CarMotion, Stop
-from comprope_system.simulation.animation.frames import DEPTHS
 from comprope_system.simulation.result import SimulationResult
+from comprope_system.simulation.rope_shapes import DEPTHS
 
 SPEEDS = (2.5, 6.0, 9.0)
 STOPS = {"3 m/s2": Stop(deceleration=3.0), "1 g": Stop(deceleration=9.81), "safety gear": Stop(safety_gear=True)}

@@ -14,7 +14,7 @@ from comprope_system.prescribed_trip import jerk_limited_trip, record_trip, side
 from comprope_system.presets import model_path
 from comprope_system.report.page import Animation, Section, save_page
 from comprope_system.simulation.animation.encoding import Trace, animation_data, decode_array, encode_array
-from comprope_system.simulation.animation.frames import ARC, DEPTHS, MAX_FRAMES, POINTS, Frame, FrameRecorder, frame_of
+from comprope_system.simulation.rope_shapes import ARC, DEPTHS, MAX_FRAMES, POINTS, Frame, FrameRecorder, frame_of
 
 from .browser import needs_browser, played
 from .virtual_elevator import MODEL
@@ -93,7 +93,7 @@ def test_packing_loses_less_than_a_line_is_wide():
     ("step", "total", "interval"), [(0.01, 500, 0.05), (0.05, 100, 0.05), (0.1, 50, 0.1), (0.001, 600_000, 0.5)]
 )
 def test_a_camera_takes_20_frames_a_second_and_never_too_many(monkeypatch, step, total, interval):
-    monkeypatch.setattr("comprope_system.simulation.animation.frames.frame_of", lambda rope: rope)
+    monkeypatch.setattr("comprope_system.simulation.rope_shapes.frame_of", lambda rope: rope)
     recorder = FrameRecorder(lambda: "frame", step)
     for count in range(total + 1):
         recorder(count, total)

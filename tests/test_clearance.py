@@ -14,8 +14,8 @@ from comprope.rope.model_file import load, with_changes
 from comprope_system import cli
 from comprope_system.building_motion.motion import BuildingMotion
 from comprope_system.presets import model_path
-from comprope_system.simulation.animation.frames import DEPTHS, Frame, Recording
 from comprope_system.simulation.clearance import Wall, clearance_of
+from comprope_system.simulation.rope_shapes import DEPTHS, Frame, Recording
 
 TOWER = with_changes(load(model_path("tower50")), {"rope.element_length": 0.1})
 PIT = TOWER.shaft.pit

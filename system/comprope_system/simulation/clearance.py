@@ -18,7 +18,7 @@ from comprope.rope.effects import RopeModel
 
 from ..building_motion.motion import BuildingMotion
 from ..report.plot_style import label, panels
-from .animation.frames import DEPTHS, SIDES, Recording
+from .rope_shapes import DEPTHS, SIDES, Recording
 
 Floats = NDArray[np.float64]
 

@@ -14,9 +14,9 @@ from ..building_motion.motion import BuildingMotion
 from ..report.json_output import plain
 from ..report.page import Picture, Section
 from ..report.result import Result
-from .animation.frames import Recording
 from .clearance import Clearance, clearance_of, known_wall
 from .measured_run import Run
+from .rope_shapes import Recording
 from .trip_simulation import Simulated, summary
 
 

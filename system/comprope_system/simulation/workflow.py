@@ -24,10 +24,10 @@ from ..parallel.progress import Progress, no_progress
 from ..presets import model_path
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
 from ..presets.overrides import Changes, by_key
-from .animation.frames import FrameRecorder
 from .elevator import OWN_FMUS, Elevator, driven_elevator, in_building, prescribed_elevator
 from .measured_run import MotionWishes, Run, measured_timing, read_run
 from .result import SimulationResult
+from .rope_shapes import FrameRecorder
 from .stop import LARGEST, Stop, braking
 from .stop_motion import Trajectory, stopped_motions
 from .timing import Timing

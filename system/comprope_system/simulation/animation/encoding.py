@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from comprope.rope.parameters import Base
 
-from .frames import DEPTHS, Frame, rest_shapes
+from ..rope_shapes import DEPTHS, Frame, rest_shapes
 
 LARGEST_INTEGER, NO_VALUE = 32767, -32768
 

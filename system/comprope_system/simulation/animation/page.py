@@ -10,9 +10,9 @@ from comprope.rope.simulator.rope import values_of
 from ...report.page import Animation, Picture, Section, Table, save_page
 from ..measured_run import Run
 from ..plot import draw_trip
+from ..rope_shapes import Recording
 from ..trip_simulation import Simulated, summary
 from .encoding import animation_data
-from .frames import Recording
 from .traces import traces
 
 _LEAD = "One trip of {distance:.1f} m in a shaft of {height:g} m with a sheave mass of {mass:g} kg per rope."

@@ -1,4 +1,4 @@
-"""Frames of an animation: shapes of both sides, the rope around the sheave, and the sheave's position."""
+"""Recorded shapes of the rope in a trip: both sides, the rope around the sheave, and the position of the sheave."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 from comprope.rope.parameters import Base
 from comprope.rope.simulator.rope import CompensationRope
 
-from ...prescribed_trip import Floats, side_shape
+from ..prescribed_trip import Floats, side_shape
 
 SIDES = ("car", "counterweight")
 POINTS = 80  # along each side, from its end down to the axle's height
