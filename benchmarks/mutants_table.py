@@ -405,7 +405,7 @@ MUTANTS = [
         "fmi", INSTANCE,
         ("old_simulator_for_new_values", "if not self._running and changed != self._values:", "if False:",
          f"{FMI_RUN}::test_outputs_before_the_run_follow_the_values_set"),
-        ("parameters_free_while_running", 'variable.role == "parameter" and self._running', "False", FMI_INSTANCE),
+        ("parameters_free_while_running", "not variable.changeable and self._running", "False", FMI_INSTANCE),
         ("times_free_while_running", "if self._running:", "if False:", FMI_INSTANCE, "setup_experiment"),
         ("time_stands_still", "self.time = time + dt", "self.time = time", f"{FMI_RUN}::test_restored_runs_go_on_bit_for_bit"),
         ("stop_time_forgotten", "self._stop = stop", "self._stop = None", FMI_INSTANCE, "setup_experiment"),

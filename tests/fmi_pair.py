@@ -225,6 +225,10 @@ class Pair:
     def start(self, values: dict[str, float]) -> None:
         """From anywhere to a run that steps."""
         self.reset()
+        self.start_with(values)
+
+    def start_with(self, values: dict[str, float]) -> None:
+        """From a new instance to a run that steps."""
         self.setup_experiment(0.0, None)
         self.set_reals(list(values), list(values.values()))
         self.enter_initialization()

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from comprope.drive.cosimulation import interface as drive_interface
+from comprope.fmi.arrays import groups_of
 from comprope.fmi.documentation import documentation_page
 from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.model_file import load
@@ -45,7 +46,9 @@ def test_every_parameter_is_in_a_picture_or_known_to_be_in_none(model: ModelInte
 
 
 def test_the_page_holds_every_picture_and_variable() -> None:
-    text = documentation_page(ROPE, "1.2.3", systems="Linux", fmi="3.0")
+    text, scalars = (documentation_page(ROPE, "1.2.3", systems="Linux", fmi=version) for version in ("3.0", "2.0"))
     assert text.count("<svg ") == len(ROPE.pictures) == 5
-    assert all(f"<code>{one.name}</code>" in text for one in ROPE.variables)
+    assert all(f"<code>{one.name}</code>" in scalars for one in ROPE.variables)
+    assert all(f"<code>{group.variable.name}</code>" in text for group in groups_of(ROPE)) and "[1]" not in text
+    assert "<td>real, 4 values</td>" in text and "<td>real, tunable</td>" in scalars
     assert "FMI 3.0 co-simulation" in text and "fmi3Error" in text

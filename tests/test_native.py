@@ -34,12 +34,19 @@ from comprope.native.targets import TARGETS
 from comprope.rope.runtime.status import MESSAGES, require_success
 from comprope_system import presets
 
-from .fmi_pair import Pair
+from .fmi_pair import SMALL, Pair
 from .native_fmu import HOSTED, ORIGIN, compiler, native_fmu, tower
 from .own_effects import FILES
 
 HEADERS = Path(fmpy.__file__).parent / "c-code"
 HOST = Path(__file__).parent / "native_host.c"
+# In place of the tower's: friction, axial, bending and external damping.
+CALM = {
+    "contact.friction_coefficient": 0.05,
+    "rope.axial_damping": 4e4,
+    "rope.bending_damping": 2.0,
+    "rope.external_damping": 3.0,
+}
 EFFECTS = {
     "effects.air_drag.drag_coefficient": 1.1, "effects.shaft_airflow.crossflow_ratio": 0.2,
     "effects.bending_hysteresis.friction_moment": 0.5, "effects.intrinsic_curvature.curvature": 0.1,
@@ -155,6 +162,36 @@ def test_same_bits_with_slack_rope_stops_and_walls(pair: Pair) -> None:
     seen = pair.oracle.instance.simulator.outputs()
     assert seen["slack_duration"] > 0.0 and seen["limit_switch"] and seen["peak_element_tension"] > 1000.0
     assert pair.refusals == 0
+
+
+def test_damping_and_friction_may_change_between_steps(pair: Pair) -> None:
+    """From the next step on, in energy balance; a saved state has them as well."""
+
+    def ride(first: int, last: int) -> None:
+        for k in range(first, last):
+            height = 0.05 * (0.01 * k) ** 2
+            pair.set_reals(["car_position", "counterweight_position"], [height, 1.0 - height])
+            pair.do_step(0.01)
+
+    names = ["car_end_tension", "energy_residual", "lateral_displacement[4]"]
+    pair.start(SMALL | {"sensors[4].height": -0.3})
+    ride(1, 30)
+    pair.save_state()
+    ride(30, 60)
+    plain = pair.oracle.instance.get_values("real", [pair.references[name] for name in names])
+    pair.restore_state(0, serialized=False)
+    pair.set_reals(list(CALM), list(CALM.values()))
+    ride(30, 45)
+    pair.save_state()
+    pair.set_reals(["contact.damping"], [2e4])
+    pair.restore_state(1, serialized=True)
+    ride(45, 60)
+    pair.get_all()
+    calm = pair.oracle.instance.get_values("real", [pair.references[name] for name in names])
+    assert abs(plain[0] - calm[0]) > 1.0 and calm[1] == pytest.approx(plain[1], abs=1e-5)
+    pair.set_reals(["rope.axial_damping"], [-1.0])
+    pair.do_step(0.01)
+    assert "parameter rope.axial_damping = -1 N.s: 0 to 1e+06 N.s is accepted" in pair.messages[0]
 
 
 def test_simulates_in_fmpy(fmu: Path) -> None:

@@ -25,7 +25,6 @@ FLAGS = (
 )
 
 
-
 _MOTION = (f"{end}_{rate}" for end in ("car", "counterweight") for rate in ("position", "velocity", "acceleration"))
 TERMINAL = Terminal(
     "compensation_ropes", "motion of the compensation ropes' ends, and what one rope pulls there", (*_MOTION, *TENSIONS)

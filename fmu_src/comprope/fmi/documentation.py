@@ -4,6 +4,7 @@ from pathlib import Path
 
 from jinja2 import Environment
 
+from .arrays import Group, groups_of
 from .model_interface import ModelInterface, Variable
 
 _PAGE = Path(__file__).with_name("page.html")
@@ -18,8 +19,11 @@ def documentation_page(
     binaries for `systems` instead.
     """
     environment = Environment(autoescape=True, trim_blocks=True, keep_trailing_newline=True)
-    environment.filters |= {"range": _range, "caption": _caption}
-    tables = [(role, found) for role in ("input", "output", "parameter") if (found := interface.of_role(role))]
+    environment.filters |= {"range": _range, "caption": _caption, "type": _type, "start": _start}
+    scalars = tuple(Group((one,), place) for place, one in enumerate(interface.variables))
+    groups = groups_of(interface) if fmi == "3.0" else scalars
+    roles = ("input", "output", "parameter")
+    tables = [(role, found) for role in roles if (found := [one for one in groups if one.variable.role == role])]
     pictures = [path.read_text("utf-8") for path in interface.pictures]
     return environment.from_string(_PAGE.read_text("utf-8")).render(
         model=interface, pictures=pictures, version=version, python=python, needs=needs, systems=systems, fmi=fmi, tables=tables
@@ -29,6 +33,17 @@ def documentation_page(
 def _caption(picture: str) -> str:
     """The title of an SVG picture."""
     return picture.partition("<title>")[2].partition("</title>")[0]
+
+
+def _type(group: Group) -> str:
+    """Type of a variable, number of elements of an array, and whether it is tunable, as in `real, 6 values`."""
+    size = f", {len(group.elements)} values" if len(group.elements) > 1 else ""
+    return group.variable.kind + size + (", tunable" if group.variable.tunable else "")
+
+
+def _start(group: Group) -> str:
+    """Start values, those of an array separated by spaces."""
+    return " ".join(str(one.start) for one in group.elements)
 
 
 def _range(variable: Variable) -> str:

@@ -42,10 +42,10 @@ class Functions:
         instantiate = CFUNCTYPE(c_void_p, c_char_p, c_int, c_char_p, c_char_p, c_void_p, c_int, c_int)
         yield instantiate(self._instantiate)
         yield CFUNCTYPE(None, c_void_p)(self._free_instance)
-        yield self._function(_setup_experiment, c_int, c_double, c_double, c_int, c_double)
+        yield self._function(_setup_experiment, c_double, c_int, c_double)
         yield self._function(Component.enter_initialization)
         yield self._function(Component.exit_initialization)
-        yield self._function(lambda one, time, dt, _: one.do_step(time, dt), c_double, c_double, c_int)
+        yield self._function(Component.do_step, c_double, c_double)
         yield self._function(Component.terminate)
         yield self._function(Component.reset)
         yield from (self._function(_getter(kind), c_void_p, c_size_t, c_void_p) for kind in _TYPES)
@@ -117,10 +117,7 @@ def _log(callbacks: int | None, name: bytes) -> Log:
     return lambda text: logger(environment, name, ERROR, _CATEGORY, text.replace("%", "%%").encode())
 
 
-def _setup_experiment(
-    component: Component, _tolerance_defined: int, _tolerance: float, start: float, stop_defined: int, stop: float
-) -> None:
-    """The tolerance is not used: the model's parameters set its accuracy."""
+def _setup_experiment(component: Component, start: float, stop_defined: int, stop: float) -> None:
     component.setup_experiment(start, stop if stop_defined else None)
 
 

@@ -73,6 +73,7 @@ class Instance:
         self._start = 0.0
         self._stop: float | None = None
         self._settable = interface.of_role("parameter") + interface.of_role("input")
+        self._changeable = [one for one in self._settable if one.changeable]
         self._values: dict[str, Value] = {one.name: one.cast(one.start) for one in self._settable}
         self._first_inputs: dict[str, Value] = {}
         self._outputs: dict[str, Value] = {}
@@ -123,10 +124,10 @@ class Instance:
             raise InputError("a step is possible only after initialization has ended")
         if problem := validation.step_problem(time, dt, self.time, self._stop):
             raise InputError(problem)
-        if problems := validation.range_problems(self.interface.of_role("input"), self._values):
+        if problems := validation.range_problems(self._changeable, self._values):
             raise InputError("; ".join(problems))
         simulator = self._ensure_simulator()
-        simulator.step(time, dt, self._of_role("input"))
+        simulator.step(time, dt, {one.name: self._values[one.name] for one in self._changeable})
         self._outputs = self._checked_outputs(simulator)
         self.time = time + dt
 
@@ -175,7 +176,7 @@ class Instance:
     def _set_problem(self, variable: Variable, value: Any) -> str | None:
         if variable.role == "output":
             return f"output {variable.name} = {value}: an output cannot be set"
-        if variable.role == "parameter" and self._running:
+        if not variable.changeable and self._running:
             return f"parameter {variable.name} = {value}: fixed once the run has started; reset the FMU to change it"
         return validation.finite_problem(variable, value)
 

@@ -5,7 +5,7 @@ does not preserve every number.
 """
 
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from .model_interface import ModelInterface, Value, Variable
 from .units import display_factor, exponents
@@ -93,24 +93,26 @@ def _rebuild_structure(structure: ET.Element, interface: ModelInterface) -> None
     outputs = interface.of_role("output")
     if not outputs:
         return
+    places = {one.name: place for place, one in enumerate(interface.variables, 1)}
     while_stepping, at_start = (ET.SubElement(structure, tag) for tag in ("Outputs", "InitialUnknowns"))
     for one in outputs:
-        index, stepping, initially = dependencies(interface, one, first=1)
+        index, stepping, initially = dependencies(interface, one, places)
         ET.SubElement(while_stepping, "Unknown", {"index": index} | stepping)
         ET.SubElement(at_start, "Unknown", {"index": index} | initially)
 
 
-def dependencies(interface: ModelInterface, output: Variable, first: int) -> tuple[str, dict[str, str], dict[str, str]]:
+def dependencies(
+    interface: ModelInterface, output: Variable, places: Mapping[str, int]
+) -> tuple[str, dict[str, str], dict[str, str]]:
     """The place of an output, and the attribute with what it depends on: while stepping, and at the start.
 
-    Places count from `first`. At the start every output may depend on every parameter; the attribute is absent where it is not
-    known which inputs matter.
+    `places` are the indices or value references of all variables. At the start every output may depend on every parameter; the
+    attribute is absent where it is not known which inputs matter.
     """
-    places = {one.name: place for place, one in enumerate(interface.variables, first)}
     parameters = [one.name for one in interface.of_role("parameter")]
 
     def attribute(names: Iterable[str]) -> dict[str, str]:
-        return {"dependencies": " ".join(map(str, sorted(places[name] for name in names)))}
+        return {"dependencies": " ".join(map(str, sorted({places[name] for name in names})))}
 
     known = output.initial_depends_on
     return str(places[output.name]), attribute(output.depends_on), {} if known is None else attribute([*parameters, *known])

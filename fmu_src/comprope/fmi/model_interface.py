@@ -1,6 +1,6 @@
 """What a model must offer to be simulated through FMI: named variables, and a simulator."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, Protocol
@@ -18,9 +18,10 @@ TYPES: dict[str, type] = {"real": float, "integer": int, "boolean": bool, "strin
 class Variable:
     """One variable of a model, in SI units.
 
-    A parameter is fixed once the steps have begun. Parameters and inputs have a start value.
+    A parameter is fixed once the steps have begun, unless it is `tunable`. Parameters and inputs have a start value.
     `depends_on` names, for an output, the inputs with direct feedthrough while stepping, and `initial_depends_on` those that it
-    depends on at the start; None: any.
+    depends on at the start; None: any. `array` describes the array that it is an element of in FMI 3.0, if it is one (see
+    `arrays`).
     """
 
     name: str
@@ -35,12 +36,19 @@ class Variable:
     depends_on: tuple[str, ...] = ()
     display_unit: str | None = None
     initial_depends_on: tuple[str, ...] | None = None
+    tunable: bool = False
+    array: str = ""
+
+    @property
+    def changeable(self) -> bool:
+        """Whether it may be set between steps."""
+        return self.role == "input" or self.tunable
 
     @property
     def variability(self) -> str:
         """Variability as defined by FMI."""
         if self.role == "parameter":
-            return "fixed"
+            return "tunable" if self.tunable else "fixed"
         return "continuous" if self.kind == "real" else "discrete"
 
     def cast(self, value: Any) -> Value:
@@ -52,7 +60,10 @@ class Simulator(Protocol):
     """Simulation of a model with given parameters; it owns the whole state."""
 
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
-        """Advance from `time` to `time + dt` [s]; raises a `CompropeError` that says what, where and when."""
+        """Advance from `time` to `time + dt` [s]; raises a `CompropeError` that says what, where and when.
+
+        `inputs` has the tunable parameters as well.
+        """
 
     def outputs(self) -> Mapping[str, Any]:
         """Every output by name, at the time reached."""
@@ -99,10 +110,12 @@ class ModelInterface:
         return tuple(variable for variable in self.variables if variable.role == role)
 
 
-def parameters_of(prefix: str, component: type[Component], values: Mapping[str, float]) -> tuple[Variable, ...]:
+def parameters_of(
+    prefix: str, component: type[Component], values: Mapping[str, float], tunable: Collection[str] = ()
+) -> tuple[Variable, ...]:
     """The declared quantities of a component as parameters `prefix.name`.
 
-    `values` gives start values by quantity name; others start at their neutral values.
+    `values` gives start values by quantity name; others start at their neutral values. `tunable` are full names.
     """
     return tuple(
         Variable(
@@ -115,6 +128,7 @@ def parameters_of(prefix: str, component: type[Component], values: Mapping[str, 
             minimum=one.minimum,
             maximum=one.maximum,
             nominal=one.nominal,
+            tunable=f"{prefix}.{one.name}" in tunable,
         )
         for one in quantities(component)
     )

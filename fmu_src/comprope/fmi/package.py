@@ -29,7 +29,7 @@ from .validation import interface_problems
 COMPROPE = Path(__file__).parent.parent
 # The modules of this package that run inside an FMU.
 FMI_MODULES = (
-    "__init__", "component", "error_reporting", "functions", "instance", "model_interface", "units", "validation",
+    "__init__", "arrays", "component", "error_reporting", "functions", "instance", "model_interface", "units", "validation",
 )  # fmt: skip
 FIXED_TIME = (1980, 1, 1, 0, 0, 0)
 DESCRIPTION = "modelDescription.xml"

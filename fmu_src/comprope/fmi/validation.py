@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from ..errors import InputError
+from .arrays import groups_of
 from .model_interface import ModelInterface, Variable
 
 _TIME_TOLERANCE = 1e-6  # of a step; importers that add up their steps drift by far less
@@ -81,6 +83,12 @@ def interface_problems(interface: ModelInterface) -> list[str]:
             found.append(f"{one.name}: parameters and inputs, and only they, have a start value")
         elif one.role != "output":
             found += range_problems([one], {one.name: one.start})
+        if one.tunable and one.role != "parameter":
+            found.append(f"{one.name}: only a parameter is tunable")
+    try:
+        groups_of(interface)
+    except InputError as error:
+        found.append(str(error))
     found += [
         f"terminal {terminal.name}: {name} is no variable"
         for terminal in interface.terminals

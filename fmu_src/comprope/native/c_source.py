@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
+from ..fmi.arrays import groups_of
 from ..fmi.model_interface import ModelInterface, Variable
 from ..fmi.validation import range_text
 from ..kernels.entry_source import EntrySource
@@ -16,7 +17,8 @@ _C_TYPES = {int: "int64_t", bool: "int8_t", float: "double", type(None): "void"}
 
 def model_source(interface: ModelInterface, guid: str, token: str) -> str:
     """The variables as C's `VARIABLES`, and the identity for FMI 2.0 and 3.0 (see variables.h)."""
-    rows = "".join(f"    {_row(one)},\n" for one in interface.variables)
+    sizes = {group.elements[0].name: (len(group.elements), group.stride) for group in groups_of(interface)}
+    rows = "".join(f"    {_row(one, *sizes.get(one.name, (0, 1)))},\n" for one in interface.variables)
     outputs = len(interface.of_role("output"))
     return (
         f'{_HEADING}#include "variables.h"\n\n#include <math.h>\n\n'
@@ -27,14 +29,15 @@ def model_source(interface: ModelInterface, guid: str, token: str) -> str:
     )
 
 
-def _row(one: Variable) -> str:
+def _row(one: Variable, elements: int, stride: int) -> str:
     low = "-INFINITY" if one.minimum is None else _number(one.minimum)
     high = "INFINITY" if one.maximum is None else _number(one.maximum)
     unit = "" if one.unit == "1" else f" {one.unit}"
     texts = (f"{one.role} {one.name}", unit, range_text(one), one.help)
     name, unit, accepted, help = (quoted(text) for text in texts)
     start = _number(float(one.start or 0.0))
-    return f"{{{one.kind.upper()}, {one.role.upper()}, {name}, {start}, {low}, {high}, {unit}, {accepted}, {help}}}"
+    role = "TUNABLE" if one.tunable else one.role.upper()
+    return f"{{{one.kind.upper()}, {role}, {name}, {start}, {low}, {high}, {unit}, {accepted}, {help}, {elements}, {stride}}}"
 
 
 def _number(value: float) -> str:

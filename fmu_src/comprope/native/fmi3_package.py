@@ -1,8 +1,9 @@
-"""What is specific to the native FMU for FMI 3.0: the same variables and value references, and the time."""
+"""What is specific to the native FMU for FMI 3.0: arrays of what FMI 2.0 has in scalars, and the time."""
 
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
+from ..fmi.arrays import Group, groups_of, places_of
 from ..fmi.icon import SIZE, icon
 from ..fmi.model_description import (
     default_experiment,
@@ -11,7 +12,7 @@ from ..fmi.model_description import (
     type_attributes,
     unit_definitions,
 )
-from ..fmi.model_interface import ModelInterface, Variable
+from ..fmi.model_interface import ModelInterface
 from .fmi_version import FmiVersion
 from .targets import TARGETS
 
@@ -31,18 +32,24 @@ def model_description(interface: ModelInterface, version: str, token: str) -> by
     ET.SubElement(categories, "Category", name="logStatusError", description="Calls refused and steps that failed, in a sentence")
     root.append(default_experiment(interface))
     variables = ET.SubElement(root, "ModelVariables")
-    for place, one in enumerate(interface.variables):
-        ET.SubElement(variables, _TYPES[one.kind], _attributes(one, place))
+    groups = groups_of(interface)
+    for group in groups:
+        element = ET.SubElement(variables, _TYPES[group.variable.kind], _attributes(group))
+        if group.is_array:
+            ET.SubElement(element, "Dimension", start=str(len(group.elements)))
     ET.SubElement(variables, "Float64", _time(len(interface.variables)))
-    _add_structure(ET.SubElement(root, "ModelStructure"), interface)
+    _add_structure(ET.SubElement(root, "ModelStructure"), interface, groups)
     ET.indent(root)
     return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
 
 
-def _attributes(variable: Variable, place: int) -> dict[str, str]:
-    given = {"name": variable.name, "valueReference": str(place), "description": variable.help}
+def _attributes(group: Group) -> dict[str, str]:
+    variable = group.variable
+    given = {"name": variable.name, "valueReference": str(group.place), "description": variable.help}
     kind = {"causality": variable.role, "variability": variable.variability}
-    return given | kind | _INITIAL[variable.role] | type_attributes(variable)
+    attributes = given | kind | _INITIAL[variable.role] | type_attributes(variable)
+    starts = [found for one in group.elements if (found := type_attributes(one).get("start")) is not None]
+    return attributes | ({"start": " ".join(starts)} if starts else {})
 
 
 def _time(place: int) -> dict[str, str]:
@@ -51,9 +58,10 @@ def _time(place: int) -> dict[str, str]:
     return given | {"causality": "independent", "variability": "continuous", "unit": "s"}
 
 
-def _add_structure(structure: ET.Element, interface: ModelInterface) -> None:
+def _add_structure(structure: ET.Element, interface: ModelInterface, groups: tuple[Group, ...]) -> None:
     """List every output with its dependencies on inputs while stepping, and as an initial unknown."""
-    found = [dependencies(interface, one, first=0) for one in interface.of_role("output")]
+    places = places_of(groups)
+    found = [dependencies(interface, one.elements[0], places) for one in groups if one.variable.role == "output"]
     for place, stepping, _ in found:
         ET.SubElement(structure, "Output", {"valueReference": place} | stepping)
     for place, _, initially in found:

@@ -59,16 +59,19 @@ def effects_of(interface: ModelInterface) -> list[type[Effect]]:
 
 
 def _slots(interface: ModelInterface, chosen: list[type[Effect]]) -> str:
-    """Where each of the kernels' parameters stands among the values, and which ones a rope without friction has instead."""
+    """Where each of the kernels' parameters stands among the values, which are tunable, and those without friction."""
     effects = tuple(f"effects.{one.name}." for one in chosen)
     known = [k for k, name in enumerate(DECLARED) if not name.startswith("effects.") or name.startswith(effects)]
     names, special = list(DECLARED), without_friction(np.full(len(DECLARED), np.nan)).tolist()
     values = {one.name: place for place, one in enumerate(interface.variables)}
     places = [values.get(names[k], -1) for k in known]
     pairs = [f"    {{{slot}, {float(special[k]).hex()}}},\n" for slot, k in enumerate(known) if special[k] == special[k]]
+    tunable = {one.name for one in interface.variables if one.tunable}
+    tuned = [slot for slot, k in enumerate(known) if names[k] in tunable]
     return (
-        f"enum {{ SLOT_COUNT = {len(places)}, FRICTIONLESS_COUNT = {len(pairs)} }};\n\n"
+        f"enum {{ SLOT_COUNT = {len(places)}, TUNABLE_COUNT = {len(tuned)}, FRICTIONLESS_COUNT = {len(pairs)} }};\n\n"
         f"static const int SLOT_PLACES[SLOT_COUNT] = {{{', '.join(map(str, places))}}};\n\n"
+        f"static const size_t TUNABLE_SLOTS[TUNABLE_COUNT] = {{{', '.join(map(str, tuned))}}};\n\n"
         "static const struct {\n    size_t slot;\n    double value;\n} FRICTIONLESS[FRICTIONLESS_COUNT] = {\n"
         + "".join(pairs)
         + "};\n"

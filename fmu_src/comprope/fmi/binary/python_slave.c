@@ -1,4 +1,5 @@
-/* The binary of an FMU that runs in Python: it finds Python, lets it load the code of the FMU, and forwards all calls.
+/* The binary of an FMU that runs in Python: it finds Python, lets it load the code of the FMU, and forwards all calls. The
+ * functions of the FMI themselves are those of the native FMUs, fmi2_functions.c.
  *
  * resources/load.py puts pointers to the functions of the FMI into FUNCTIONS (made by ctypes, see functions.py).
  * Python is the one that runs in this process already; else the library named by COMPROPE_LIBPYTHON; else that of
@@ -6,7 +7,10 @@
  */
 #define _GNU_SOURCE
 #include "fmi2Functions.h"
+
+#include "calls.h"
 #include "find_python.h"
+#include "message.h"
 
 #include <stdatomic.h>
 #include <stdint.h>
@@ -16,18 +20,14 @@
 
 enum function { /* as functions.py lists them */
     INSTANTIATE, FREE_INSTANCE, SETUP_EXPERIMENT, ENTER_INITIALIZATION, EXIT_INITIALIZATION, DO_STEP, TERMINATE, RESET,
-    GET_REAL, GET_INTEGER, GET_BOOLEAN, GET_STRING, SET_REAL, SET_INTEGER, SET_BOOLEAN, SET_STRING,
-    GET_STATE, SET_STATE, FREE_STATE, STATE_SIZE, SERIALIZE_STATE, DESERIALIZE_STATE, LAST_TIME, REFUSE,
-    FUNCTION_COUNT
+    GET_VALUES, SET_VALUES = GET_VALUES + STRING + 1, /* of each kind in turn */
+    GET_STATE = SET_VALUES + STRING + 1, SET_STATE, FREE_STATE, STATE_SIZE, SERIALIZE_STATE, DESERIALIZE_STATE, LAST_TIME,
+    REFUSE, FUNCTION_COUNT
 };
-enum { PATH_SIZE = 4096, PROBLEM_SIZE = 2048 };
+enum { PATH_SIZE = 4096 };
 
 static void *FUNCTIONS[FUNCTION_COUNT];
 static const char LOADER[] = "load.py";
-
-#define CALL(function, type) ((type *)FUNCTIONS[function])
-#define FORWARD(function, type, ...) \
-    return FUNCTIONS[function] ? CALL(function, type)(__VA_ARGS__) : fmi2Error
 
 /* -- Where the FMU is unpacked -- */
 
@@ -114,20 +114,20 @@ static char *loading_statements(const char *resources, char *problem)
         }
         digits[2 * length] = '\0';
         snprintf(text, size, FORM, digits, LOADER, (unsigned long long)(uintptr_t)FUNCTIONS,
-                 (unsigned long long)(uintptr_t)problem, PROBLEM_SIZE);
+                 (unsigned long long)(uintptr_t)problem, MESSAGE_SIZE);
     }
     free(digits);
     return text;
 }
 
-static bool load(const char *uri, char problem[PROBLEM_SIZE])
+static bool load(const char *uri, char problem[MESSAGE_SIZE])
 {
     static atomic_flag starting = ATOMIC_FLAG_INIT;
     char resources[PATH_SIZE];
     Python python;
 
     if (!find_resources(uri, resources)) {
-        snprintf(problem, PROBLEM_SIZE, "resources/%s is not found: the importer says %.1000s", LOADER, uri ? uri : "nothing");
+        snprintf(problem, MESSAGE_SIZE, "resources/%s is not found: the importer says %.1000s", LOADER, uri ? uri : "nothing");
         return false;
     }
     while (atomic_flag_test_and_set(&starting)) {
@@ -139,12 +139,12 @@ static bool load(const char *uri, char problem[PROBLEM_SIZE])
     }
     atomic_flag_clear(&starting);
     if (!found) {
-        snprintf(problem, PROBLEM_SIZE,
+        snprintf(problem, MESSAGE_SIZE,
                  "no Python is found; put one with the packages named in the FMU's documentation first in the PATH, or name its "
                  "library in the environment variable COMPROPE_LIBPYTHON");
         return false;
     }
-    snprintf(problem, PROBLEM_SIZE, "resources/%s failed; the reason is on standard error", LOADER);
+    snprintf(problem, MESSAGE_SIZE, "resources/%s failed; the reason is on standard error", LOADER);
     char *statements = loading_statements(resources, problem);
     if (statements) {
         const int lock = python.ensure();
@@ -158,213 +158,118 @@ static bool load(const char *uri, char problem[PROBLEM_SIZE])
 /* Report a sentence to the importer, whose logger takes it as a format; without a logger, on standard error. */
 static void report(const fmi2CallbackFunctions *functions, const char *name, const char *sentence)
 {
-    char format[2 * PROBLEM_SIZE];
-    size_t length = 0;
-
+    char format[2 * MESSAGE_SIZE];
     if (!functions || !functions->logger) {
         fprintf(stderr, "%s\n", sentence);
         return;
     }
-    for (; *sentence && length < sizeof format - 2; sentence++) {
-        format[length++] = *sentence;
-        if (*sentence == '%') {
-            format[length++] = '%';
-        }
-    }
-    format[length] = '\0';
+    message_as_format(sentence, format, sizeof format);
     functions->logger(functions->componentEnvironment, name ? name : "", fmi2Error, "logStatusError", format);
 }
 
-/* -- The functions of FMI 2.0 -- */
-
-const char *fmi2GetTypesPlatform(void)
-{
-    return fmi2TypesPlatform;
-}
-
-const char *fmi2GetVersion(void)
-{
-    return fmi2Version;
-}
-
-fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t count, const fmi2String categories[])
-{
-    (void)on, (void)count, (void)categories; /* only errors are logged, and those always */
-    return c ? fmi2OK : fmi2Error;
-}
+/* -- The calls of the FMI (see calls.h); fmi2_functions.c has the functions that lead here -- */
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
 {
-    char problem[PROBLEM_SIZE];
+    char problem[MESSAGE_SIZE];
     if (!FUNCTIONS[INSTANTIATE] && !load(resources, problem)) {
         report(functions, name, problem);
         return NULL;
     }
-    return CALL(INSTANTIATE, fmi2InstantiateTYPE)(name, type, guid, resources, functions, visible, logging);
+    return ((fmi2InstantiateTYPE *)FUNCTIONS[INSTANTIATE])(name, type, guid, resources, functions, visible, logging);
 }
 
-void fmi2FreeInstance(fmi2Component c)
+void instance_free(void *component)
 {
     if (FUNCTIONS[FREE_INSTANCE]) {
-        CALL(FREE_INSTANCE, fmi2FreeInstanceTYPE)(c);
+        ((void (*)(void *))FUNCTIONS[FREE_INSTANCE])(component);
     }
 }
 
-fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance, fmi2Real start,
-                               fmi2Boolean stop_defined, fmi2Real stop)
+#define FORWARD(function, types, ...) \
+    return FUNCTIONS[function] ? ((int(*) types)FUNCTIONS[function])(__VA_ARGS__) : STATUS_ERROR
+
+int setup_experiment(void *component, double start, bool stop_defined, double stop)
 {
-    FORWARD(SETUP_EXPERIMENT, fmi2SetupExperimentTYPE, c, tolerance_defined, tolerance, start, stop_defined, stop);
+    FORWARD(SETUP_EXPERIMENT, (void *, double, int, double), component, start, stop_defined, stop);
 }
 
-fmi2Status fmi2EnterInitializationMode(fmi2Component c)
+int enter_initialization(void *component)
 {
-    FORWARD(ENTER_INITIALIZATION, fmi2EnterInitializationModeTYPE, c);
+    FORWARD(ENTER_INITIALIZATION, (void *), component);
 }
 
-fmi2Status fmi2ExitInitializationMode(fmi2Component c)
+int exit_initialization(void *component)
 {
-    FORWARD(EXIT_INITIALIZATION, fmi2ExitInitializationModeTYPE, c);
+    FORWARD(EXIT_INITIALIZATION, (void *), component);
 }
 
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real dt, fmi2Boolean no_set_state_prior)
+int do_step(void *component, double time, double dt)
 {
-    FORWARD(DO_STEP, fmi2DoStepTYPE, c, time, dt, no_set_state_prior);
+    FORWARD(DO_STEP, (void *, double, double), component, time, dt);
 }
 
-fmi2Status fmi2Terminate(fmi2Component c)
+int terminate(void *component)
 {
-    FORWARD(TERMINATE, fmi2TerminateTYPE, c);
+    FORWARD(TERMINATE, (void *), component);
 }
 
-fmi2Status fmi2Reset(fmi2Component c)
+int reset(void *component)
 {
-    FORWARD(RESET, fmi2ResetTYPE, c);
+    FORWARD(RESET, (void *), component);
 }
 
-#define GETTER_AND_SETTER(Type, NAME)                                                                 \
-    fmi2Status fmi2Get##Type(fmi2Component c, const fmi2ValueReference references[], size_t count,    \
-                             fmi2##Type values[])                                                     \
-    {                                                                                                 \
-        FORWARD(GET_##NAME, fmi2Get##Type##TYPE, c, references, count, values);                       \
-    }                                                                                                 \
-    fmi2Status fmi2Set##Type(fmi2Component c, const fmi2ValueReference references[], size_t count,    \
-                             const fmi2##Type values[])                                               \
-    {                                                                                                 \
-        FORWARD(SET_##NAME, fmi2Set##Type##TYPE, c, references, count, values);                       \
-    }
-
-GETTER_AND_SETTER(Real, REAL)
-GETTER_AND_SETTER(Integer, INTEGER)
-GETTER_AND_SETTER(Boolean, BOOLEAN)
-GETTER_AND_SETTER(String, STRING)
-
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
+int last_time(void *component, double *time)
 {
-    FORWARD(GET_STATE, fmi2GetFMUstateTYPE, c, state);
+    FORWARD(LAST_TIME, (void *, double *), component, time);
 }
 
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
+int get_values(void *component, const ValueType *type, const unsigned references[], size_t count, void *values,
+               size_t value_count)
 {
-    FORWARD(SET_STATE, fmi2SetFMUstateTYPE, c, state);
+    (void)value_count; /* no arrays in FMI 2.0 */
+    FORWARD(GET_VALUES + type->kind, (void *, const unsigned *, size_t, void *), component, references, count, values);
 }
 
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
+int set_values(void *component, const ValueType *type, const unsigned references[], size_t count, const void *values,
+               size_t value_count)
 {
-    FORWARD(FREE_STATE, fmi2FreeFMUstateTYPE, c, state);
+    (void)value_count;
+    FORWARD(SET_VALUES + type->kind, (void *, const unsigned *, size_t, const void *), component, references, count, values);
 }
 
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
+int save_state(void *component, void **state)
 {
-    FORWARD(STATE_SIZE, fmi2SerializedFMUstateSizeTYPE, c, state, size);
+    FORWARD(GET_STATE, (void *, void **), component, state);
 }
 
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
+int restore_state(void *component, const void *state)
 {
-    FORWARD(SERIALIZE_STATE, fmi2SerializeFMUstateTYPE, c, state, bytes, size);
+    FORWARD(SET_STATE, (void *, const void *), component, state);
 }
 
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
+int free_state(void *component, void **state)
 {
-    FORWARD(DESERIALIZE_STATE, fmi2DeSerializeFMUstateTYPE, c, bytes, size, state);
+    FORWARD(FREE_STATE, (void *, void **), component, state);
 }
 
-/* -- What this FMU does not offer -- */
-
-typedef fmi2Status RefuseType(fmi2Component c, const char *reason);
-
-static fmi2Status refuse(fmi2Component c, const char *reason)
+int serialized_size(void *component, const void *state, size_t *size)
 {
-    FORWARD(REFUSE, RefuseType, c, reason);
+    FORWARD(STATE_SIZE, (void *, const void *, size_t *), component, state, size);
 }
 
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count,
-                                       const fmi2Integer orders[], const fmi2Real values[])
+int serialize_state(void *component, const void *state, void *bytes, size_t size)
 {
-    (void)references, (void)count, (void)orders, (void)values;
-    return refuse(c, "derivatives of inputs cannot be set; velocities and accelerations are inputs of their own");
+    FORWARD(SERIALIZE_STATE, (void *, const void *, void *, size_t), component, state, bytes, size);
 }
 
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t count,
-                                        const fmi2Integer orders[], fmi2Real values[])
+int deserialize_state(void *component, const void *bytes, size_t size, void **state)
 {
-    (void)references, (void)count, (void)orders, (void)values;
-    return refuse(c, "derivatives of outputs are not offered");
+    FORWARD(DESERIALIZE_STATE, (void *, const void *, size_t, void **), component, bytes, size, state);
 }
 
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t unknown_count,
-                                        const fmi2ValueReference knowns[], size_t known_count, const fmi2Real changes[],
-                                        fmi2Real results[])
+int instance_refuse(void *component, const char *reason)
 {
-    (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)changes, (void)results;
-    return refuse(c, "directional derivatives are not offered");
-}
-
-fmi2Status fmi2CancelStep(fmi2Component c)
-{
-    return refuse(c, "no step is in progress: each call of fmi2DoStep returns when its step is done");
-}
-
-/* -- Status; what cannot be answered is no error: FMI says to discard it -- */
-
-static fmi2Status no_answer(fmi2Component c)
-{
-    return c ? fmi2Discard : fmi2Error;
-}
-
-fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
-{
-    (void)kind, (void)value;
-    return no_answer(c);
-}
-
-typedef fmi2Status LastTimeType(fmi2Component c, fmi2Real *time);
-
-fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
-{
-    if (!c || !value || kind != fmi2LastSuccessfulTime) {
-        return no_answer(c);
-    }
-    FORWARD(LAST_TIME, LastTimeType, c, value);
-}
-
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
-{
-    (void)kind, (void)value;
-    return no_answer(c);
-}
-
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
-{
-    if (!c || !value || kind != fmi2Terminated) {
-        return no_answer(c);
-    }
-    *value = fmi2False; /* only the importer ends a simulation */
-    return fmi2OK;
-}
-
-fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
-{
-    (void)kind, (void)value;
-    return no_answer(c);
+    FORWARD(REFUSE, (void *, const char *), component, reason);
 }

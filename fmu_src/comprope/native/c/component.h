@@ -16,6 +16,9 @@ void component_prepare(Tables *tables, const double *values, size_t columns);
 /* Equilibrium at the time t [s], from a state of zeros. */
 bool component_initialize(Tables *tables, double t, Message *problems);
 
+/* Take over the tunable parameters among the values. */
+void component_tune(Tables *tables, const double *values);
+
 /* Advance from t to t + dt [s]. */
 bool component_step(Tables *tables, double t, double dt, Message *problems);
 

@@ -78,9 +78,7 @@ bool ensure_model(Instance *instance)
     if (instance->model_ready) {
         return true;
     }
-    bool valid = check_ranges(PARAMETER, state->values, problems);
-    valid &= check_ranges(INPUT, state->values, problems);
-    instance->model_ready = valid &&
+    instance->model_ready = check_ranges(PARAMETER, INPUT, state->values, problems) &&
                             model_prepare(&instance->model, instance->allocator, state->values, problems) &&
                             model_initialize(&instance->model, state->start, problems) && update_outputs(instance);
     return instance->model_ready;
@@ -112,8 +110,8 @@ int do_step(void *component, double time, double dt)
     InstanceState *state = &instance->state;
     Message *problems = &instance->problems;
     const bool done = can_step(instance) && check_step(time, dt, state->time, state->stop, problems) &&
-                      check_ranges(INPUT, state->values, problems) &&
-                      model_step(&instance->model, time, dt, problems) && update_outputs(instance);
+                      check_ranges(TUNABLE, INPUT, state->values, problems) &&
+                      model_step(&instance->model, state->values, time, dt, problems) && update_outputs(instance);
     if (done) {
         state->time = time + dt;
     }
@@ -138,4 +136,10 @@ int reset(void *component)
         instance_set_to_start(instance);
     }
     return instance_end_call(instance, true);
+}
+
+int last_time(void *component, double *time)
+{
+    *time = ((const Instance *)component)->state.time;
+    return STATUS_OK;
 }

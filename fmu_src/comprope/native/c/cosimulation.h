@@ -1,4 +1,4 @@
-/* Initialization, steps and termination of an instance. See instance.h for the conventions.
+/* What reading values needs of the initialization and the steps of an instance.
  *
  * Before the steps begin the model is initialized when an output is read, and anew after a value has changed.
  */
@@ -6,13 +6,6 @@
 #define COSIMULATION_H
 
 #include "instance.h"
-
-int setup_experiment(void *component, double start, bool stop_defined, double stop);
-int enter_initialization(void *component);
-int exit_initialization(void *component);
-int do_step(void *component, double time, double dt);
-int terminate(void *component);
-int reset(void *component);
 
 /* Whether no call has failed since the last reset or restored state. */
 bool not_failed(Instance *instance);

@@ -1,17 +1,15 @@
-/* The functions of FMI 2.0 for co-simulation: each translates types and calls one function for both versions of FMI. */
+/* The functions of FMI 2.0 for co-simulation, except fmi2Instantiate: each translates types and makes one call (see calls.h).
+ *
+ * Native FMUs and those that run in Python share them.
+ */
 
 #include "fmi2Functions.h"
 
-#include "cosimulation.h"
-#include "fmu_state.h"
-#include "values.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "calls.h"
 
 _Static_assert((int)fmi2OK == STATUS_OK && (int)fmi2Error == STATUS_ERROR, "statuses are those of the FMI");
 
-/* -- Inquiry and instances -- */
+/* -- Inquiry -- */
 
 const char *fmi2GetTypesPlatform(void)
 {
@@ -29,54 +27,12 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t count, co
     return c ? fmi2OK : fmi2Error;
 }
 
-/* The importer's logger takes the sentence as a format, in which a percent sign is written twice. */
-static void send(const Logger *logger, const char *instance_name, const char *sentence)
-{
-    char format[2 * MESSAGE_SIZE];
-    size_t length = 0;
-
-    if (!logger->callback) {
-        return;
-    }
-    for (; *sentence && length < sizeof format - 2; sentence++) {
-        format[length++] = *sentence;
-        if (*sentence == '%') {
-            format[length++] = '%';
-        }
-    }
-    format[length] = '\0';
-    ((fmi2CallbackLogger)logger->callback)(logger->environment, instance_name, fmi2Error, "logStatusError", format);
-}
-
-static Allocator allocator_of(const fmi2CallbackFunctions *functions)
-{
-    if (functions->allocateMemory && functions->freeMemory) {
-        return (Allocator){functions->allocateMemory, functions->freeMemory};
-    }
-    return (Allocator){calloc, free};
-}
-
-fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
-                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
-{
-    (void)resources, (void)visible, (void)logging;
-    if (!functions) {
-        return NULL;
-    }
-    const char *refusal = type != fmi2CoSimulation ? "this FMU is for co-simulation only"
-                          : !guid || strcmp(guid, MODEL_GUID)
-                              ? "the GUID is not this FMU's: binary and modelDescription.xml do not belong together"
-                              : NULL;
-    const Logger logger = {send, (void (*)(void))functions->logger, functions->componentEnvironment};
-    return instance_create(name, refusal, logger, allocator_of(functions));
-}
+/* -- Initialization, steps and termination -- */
 
 void fmi2FreeInstance(fmi2Component c)
 {
     instance_free(c);
 }
-
-/* -- Initialization, steps and termination -- */
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance, fmi2Real start,
                                fmi2Boolean stop_defined, fmi2Real stop)
@@ -225,8 +181,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
     if (!c || !value || kind != fmi2LastSuccessfulTime) {
         return no_answer(c);
     }
-    *value = ((const Instance *)c)->state.time;
-    return fmi2OK;
+    return last_time(c, value);
 }
 
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)

@@ -1,10 +1,8 @@
-/* The functions of FMI 3.0 for co-simulation: each translates types and calls one function for both versions of FMI. */
+/* The functions of FMI 3.0 for co-simulation: each translates types and makes one call (see calls.h). */
 
 #include "fmi3Functions.h"
 
-#include "cosimulation.h"
-#include "fmu_state.h"
-#include "values.h"
+#include "instance.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -107,7 +105,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 dt, fmi3Bool
     }
     *event_needed = *terminate_simulation = *early_return = fmi3False; /* only the importer ends a simulation */
     const int status = do_step(c, time, dt);
-    *last_successful_time = ((const Instance *)c)->state.time;
+    last_time(c, last_successful_time);
     return status;
 }
 
@@ -121,7 +119,7 @@ fmi3Status fmi3Reset(fmi3Instance c)
     return reset(c);
 }
 
-/* -- Values; all variables are scalars -- */
+/* -- Values -- */
 
 static double load_boolean(const void *values, size_t index)
 {
@@ -134,8 +132,8 @@ static void store_boolean(void *values, size_t index, double value)
 }
 
 static const ValueType FLOAT64_TYPE = {REAL, load_double, store_double, true};
-static const ValueType INT32_TYPE = {INTEGER, load_int32, store_int32, false};
-static const ValueType BOOLEAN_TYPE = {BOOLEAN, load_boolean, store_boolean, false};
+static const ValueType INT32_TYPE = {INTEGER, load_int32, store_int32, true};
+static const ValueType BOOLEAN_TYPE = {BOOLEAN, load_boolean, store_boolean, true};
 
 #define GETTER_AND_SETTER(Type, type)                                                                              \
     fmi3Status fmi3Get##Type(fmi3Instance c, REFERENCES, fmi3##Type values[], size_t value_count)                  \

@@ -142,7 +142,7 @@ static bool prepare_model_for(Instance *instance, const SavedState *state)
     if (instance->model_ready && !memcmp(values, state->numbers, FIRST_INPUT * sizeof *values)) {
         return true;
     }
-    if (!check_ranges(PARAMETER, state->numbers, &instance->problems)) {
+    if (!check_ranges(PARAMETER, TUNABLE, state->numbers, &instance->problems)) {
         return false;
     }
     instance->model_ready = false;

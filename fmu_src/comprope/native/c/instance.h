@@ -1,20 +1,17 @@
 /* One instance of the FMU, whichever version of FMI it is called by: its state, its model, and how errors are reported.
  *
- * Every function whose argument is a `component` is one call of the FMI. It returns a status, and reports an error to the
- * importer. A refused call changes nothing but marks the instance as failed: after an error there are no steps and no
- * outputs until it is reset or a saved state is restored, so that not even an importer that ignores errors can take old
- * values for new ones. Functions with an `instance` return whether they succeeded; if not, `problems` says why.
+ * Every function whose argument is a `component` is one call of the FMI (see calls.h). Functions with an `instance` return
+ * whether they succeeded; if not, `problems` says why.
  */
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
 #include "allocator.h"
+#include "calls.h"
 #include "message.h"
 #include "model.h"
 
 #include <stdbool.h>
-
-enum { STATUS_OK = 0, STATUS_ERROR = 3 }; /* the same values in FMI 2.0 and FMI 3.0 */
 
 enum phase { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED };
 
@@ -46,7 +43,6 @@ typedef struct {
 
 /* A new instance; NULL, reported to the importer, if `refusal` gives a reason or there is no memory. */
 Instance *instance_create(const char *name, const char *refusal, Logger logger, Allocator allocator);
-void instance_free(void *component);
 
 /* Back to the start values of all variables. */
 void instance_set_to_start(Instance *instance);
@@ -56,8 +52,5 @@ Instance *instance_begin_call(void *component);
 
 /* The status of a call: an error is reported to the importer and marks the instance as failed. */
 int instance_end_call(Instance *instance, bool succeeded);
-
-/* The status of a call that is an error in itself. */
-int instance_refuse(void *component, const char *reason);
 
 #endif

@@ -48,3 +48,15 @@ void message_number(Message *message, double number)
         message_add(message, "%.6g", number);
     }
 }
+
+void message_as_format(const char *sentence, char *format, size_t size)
+{
+    size_t length = 0;
+    for (; *sentence && length < size - 2; sentence++) {
+        format[length++] = *sentence;
+        if (*sentence == '%') {
+            format[length++] = '%';
+        }
+    }
+    format[length] = '\0';
+}

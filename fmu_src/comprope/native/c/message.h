@@ -20,4 +20,7 @@ void message_next(Message *message);
 /* Add a number in six digits; "nan" and "inf" are written the same on every system. */
 void message_number(Message *message, double number);
 
+/* Write a sentence as a format of printf, in which a percent sign is written twice; it is cut to `size`. */
+void message_as_format(const char *sentence, char *format, size_t size);
+
 #endif

@@ -76,8 +76,9 @@ bool model_initialize(Model *model, double t, Message *problems)
     return component_initialize(&model->tables, t, problems);
 }
 
-bool model_step(Model *model, double t, double dt, Message *problems)
+bool model_step(Model *model, const double *values, double t, double dt, Message *problems)
 {
+    component_tune(&model->tables, values);
     return component_step(&model->tables, t, dt, problems);
 }
 

@@ -23,8 +23,8 @@ bool model_prepare(Model *model, Allocator allocator, double *values, Message *p
 /* Bring the model to equilibrium at the time t [s]. */
 bool model_initialize(Model *model, double t, Message *problems);
 
-/* Advance from t to t + dt [s]; the message of a failure says where and when. */
-bool model_step(Model *model, double t, double dt, Message *problems);
+/* Advance from t to t + dt [s] with the tunable parameters among the values; the message of a failure says where and when. */
+bool model_step(Model *model, const double *values, double t, double dt, Message *problems);
 
 /* All outputs, in the order of their variables, valid until the next call. */
 const double *model_outputs(Model *model);

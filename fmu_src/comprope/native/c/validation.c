@@ -29,11 +29,11 @@ static bool in_range(const Variable *variable, double value, Message *problems)
     return false;
 }
 
-bool check_ranges(enum role role, const double *values, Message *problems)
+bool check_ranges(enum role first, enum role last, const double *values, Message *problems)
 {
     bool valid = true;
     for (size_t k = 0; k < VARIABLE_COUNT; k++) {
-        if (VARIABLES[k].role == role) {
+        if (first <= VARIABLES[k].role && VARIABLES[k].role <= last) {
             valid &= in_range(&VARIABLES[k], values[k], problems);
         }
     }

@@ -10,8 +10,8 @@
 /* A value to be set: a real number must be finite. */
 bool check_finite(const Variable *variable, double value, Message *problems);
 
-/* Values of all variables of a role: finite and within their ranges. */
-bool check_ranges(enum role role, const double *values, Message *problems);
+/* Values of all variables of the roles from `first` to `last`: finite and within their ranges. */
+bool check_ranges(enum role first, enum role last, const double *values, Message *problems);
 
 /* Outputs of the model, in the order of their variables: finite. */
 bool check_outputs(const double *outputs, Message *problems);

@@ -1,56 +1,52 @@
-#include "values.h"
-
 #include "cosimulation.h"
 #include "validation.h"
 
-#include <math.h>
-#include <stdint.h>
-
-double load_double(const void *values, size_t index)
+static bool is_time(const ValueType *type, unsigned reference)
 {
-    return ((const double *)values)[index];
+    return type->is_fmi3 && type->kind == REAL && reference == VARIABLE_COUNT;
 }
 
-void store_double(void *values, size_t index, double value)
+/* How many values a reference stands for; 0 for an element of an array, which has no reference of its own. */
+static size_t element_count(const ValueType *type, unsigned reference)
 {
-    ((double *)values)[index] = value;
+    return type->is_fmi3 && reference < VARIABLE_COUNT ? VARIABLES[reference].elements : 1;
 }
 
-double load_int32(const void *values, size_t index)
+/* Where an element of a variable stands among all values. */
+static size_t place_of(unsigned reference, size_t element)
 {
-    return ((const int32_t *)values)[index];
+    return reference + element * VARIABLES[reference].stride;
 }
 
-void store_int32(void *values, size_t index, double value)
-{
-    ((int32_t *)values)[index] = (int32_t)fmax(fmin(value, INT32_MAX), INT32_MIN);
-}
-
-/* Whether a call for `count` variables gives as many values. */
-static bool complete(Instance *instance, const unsigned *references, size_t count, const void *values,
-                     size_t value_count)
-{
-    const bool given = count == value_count && (!count || (references && values));
-    if (!given) {
-        message_add(&instance->problems, "one value reference and one value are needed for each variable");
-    }
-    return given;
-}
-
-static bool known(Instance *instance, enum kind kind, unsigned reference)
+static bool known(Instance *instance, const ValueType *type, unsigned reference)
 {
     static const char *const NAMES[] = {"real", "integer", "boolean", "string"};
-    if (reference < VARIABLE_COUNT && VARIABLES[reference].kind == kind) {
+    if (reference < VARIABLE_COUNT && VARIABLES[reference].kind == type->kind && element_count(type, reference)) {
         return true;
     }
     message_next(&instance->problems);
-    message_add(&instance->problems, "value reference %u: not of type %s", reference, NAMES[kind]);
+    message_add(&instance->problems, "value reference %u: not of type %s", reference, NAMES[type->kind]);
     return false;
 }
 
-static bool is_time(const ValueType *type, unsigned reference)
+/* Whether a call for `count` variables gives the values of all their elements. */
+static bool complete(Instance *instance, const ValueType *type, const unsigned *references, size_t count,
+                     const void *values, size_t value_count)
 {
-    return type->reads_time && reference == VARIABLE_COUNT;
+    if (count && (!references || !values)) {
+        message_add(&instance->problems, "one value reference and one value are needed for each variable");
+        return false;
+    }
+    size_t needed = 0;
+    for (size_t k = 0; k < count; k++) {
+        const size_t elements = element_count(type, references[k]);
+        needed += elements ? elements : 1;
+    }
+    if (needed != value_count) {
+        message_add(&instance->problems, "%lu values are given; these variables have %lu", (unsigned long)value_count,
+                    (unsigned long)needed);
+    }
+    return needed == value_count;
 }
 
 /* Whether all references can be read; initializes the model if outputs are among them. */
@@ -61,7 +57,7 @@ static bool readable(Instance *instance, const ValueType *type, const unsigned *
         if (is_time(type, references[k])) {
             continue;
         }
-        if (!known(instance, type->kind, references[k])) {
+        if (!known(instance, type, references[k])) {
             return false;
         }
         output |= VARIABLES[references[k]].role == OUTPUT;
@@ -73,11 +69,15 @@ int get_values(void *component, const ValueType *type, const unsigned references
                size_t value_count)
 {
     Instance *instance = instance_begin_call(component);
-    const bool found = instance && complete(instance, references, count, values, value_count) &&
+    const bool found = instance && complete(instance, type, references, count, values, value_count) &&
                        readable(instance, type, references, count);
+    size_t index = 0;
     for (size_t k = 0; found && k < count; k++) {
         const InstanceState *state = &instance->state;
-        type->store(values, k, is_time(type, references[k]) ? state->time : state->values[references[k]]);
+        for (size_t e = 0; e < element_count(type, references[k]); e++) {
+            const bool time = is_time(type, references[k]);
+            type->store(values, index++, time ? state->time : state->values[place_of(references[k], e)]);
+        }
     }
     return instance_end_call(instance, found);
 }
@@ -107,9 +107,15 @@ static bool settable(Instance *instance, const ValueType *type, const unsigned *
                      const void *values)
 {
     bool accepted = true;
+    size_t index = 0;
     for (size_t k = 0; k < count; k++) {
-        accepted = known(instance, type->kind, references[k]) &&
-                   acceptable(instance, &VARIABLES[references[k]], type->load(values, k)) && accepted;
+        const bool is_known = known(instance, type, references[k]);
+        accepted &= is_known;
+        for (size_t e = 0; e < element_count(type, references[k]); e++) {
+            const double value = type->load ? type->load(values, index) : 0.0;
+            index++;
+            accepted &= is_known && acceptable(instance, &VARIABLES[place_of(references[k], e)], value);
+        }
     }
     return accepted;
 }
@@ -118,15 +124,18 @@ int set_values(void *component, const ValueType *type, const unsigned references
                size_t value_count)
 {
     Instance *instance = instance_begin_call(component);
-    const bool accepted = instance && complete(instance, references, count, values, value_count) &&
+    const bool accepted = instance && complete(instance, type, references, count, values, value_count) &&
                           settable(instance, type, references, count, values);
+    size_t index = 0;
     for (size_t k = 0; accepted && k < count; k++) {
-        const double value = type->load(values, k);
-        double *target = &instance->state.values[references[k]];
-        if (*target != value && instance->state.phase < STEPPING) {
-            instance->model_ready = false;
+        for (size_t e = 0; e < element_count(type, references[k]); e++) {
+            const double value = type->load(values, index++);
+            double *target = &instance->state.values[place_of(references[k], e)];
+            if (*target != value && instance->state.phase < STEPPING) {
+                instance->model_ready = false;
+            }
+            *target = value;
         }
-        *target = value;
     }
     return instance_end_call(instance, accepted);
 }

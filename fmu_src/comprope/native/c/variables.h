@@ -5,9 +5,10 @@
 #include <stddef.h>
 
 enum kind { REAL, INTEGER, BOOLEAN, STRING };
-enum role { PARAMETER, INPUT, OUTPUT };
+enum role { PARAMETER, TUNABLE, INPUT, OUTPUT }; /* a tunable parameter may change between steps */
 
-/* One variable; its index in VARIABLES is its value reference. An absent bound is infinite. */
+/* One variable; its index in VARIABLES is its value reference. An absent bound is infinite. In FMI 3.0 it is the first of
+ * `elements` variables that make an array, every `stride`-th; one alone is an array of 1, and those after the first have 0. */
 typedef struct {
     enum kind kind;
     enum role role;
@@ -16,6 +17,7 @@ typedef struct {
     const char *unit;     /* with a space before it, or empty */
     const char *accepted; /* as in "0.1 to 20000 kg is accepted" */
     const char *help;
+    size_t elements, stride;
 } Variable;
 
 extern const Variable VARIABLES[];

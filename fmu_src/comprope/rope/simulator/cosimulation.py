@@ -10,10 +10,10 @@ from ...fmi.model_interface import ModelInterface, Value
 from ..effects import REGISTRY
 from ..model_file import validated
 from ..parameters import Base
-from ..parameters.parameter_vector import COMPONENTS, DECLARED
+from ..parameters.parameter_vector import COMPONENTS, DECLARED, slot
 from .end_motion import EndMotion
 from .rope import CompensationRope
-from .variables import ENDS, TERMINAL, variables_of
+from .variables import ENDS, TERMINAL, TUNABLE, variables_of
 
 NAME = "CompensationRope"
 # What makes the interface inside an FMU, from the files of `model_file.bundle`. Who built it has consented to run them.
@@ -29,6 +29,7 @@ _DESCRIPTION = (
 )
 _NAMES = ("shaft", "sheave", "element", "ends", "guides")
 _PICTURES = tuple(Path(__file__).with_name("pictures") / f"{name}.svg" for name in _NAMES)
+_TUNABLE_SLOTS = {name: slot(name) for name in TUNABLE}
 _RISE, _RISE_TIME = 2.0, 4.0  # m, s, of the simulation kept as a reference
 _STEP = 0.01  # s, default communication step of an importer
 
@@ -108,8 +109,11 @@ class RopeSimulator:
     def step(self, time: float, dt: float, inputs: Mapping[str, Any]) -> None:
         """Advance from `time` by `dt` [s]; a step too short for the integration of accelerations is put off to the next one.
 
+        `inputs` may have tunable parameters as well, which then hold from this step on.
         Raises InputError for ends that jump or are out of reach, SimulationError for a lost step.
         """
+        for name, k in _TUNABLE_SLOTS.items():
+            self.rope.p[k] = inputs.get(name, self.rope.p[k])
         self.rope.check_reach(float(inputs["car_position"]), float(inputs["counterweight_position"]), time)
         path, duration = self.motion.path(time, dt, inputs)
         if duration > 0.0:

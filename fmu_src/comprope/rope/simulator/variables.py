@@ -43,6 +43,11 @@ _TENSIONS = (
 )
 
 
+# What dissipates energy and stores none: a change between steps leaves shape and motion as they are.
+TUNABLE = (
+    "rope.axial_damping", "rope.bending_damping", "rope.external_damping", "contact.damping", "contact.friction_coefficient",
+)  # fmt: skip
+
 _MOTION = (f"{end}_{rate}" for end in ENDS for rate in ("position", "velocity", "acceleration"))
 TERMINAL = Terminal(
     "ends", "motion of the rope's ends, and what it pulls there", (*_MOTION, *(f"{end}_end_tension" for end in ENDS))
@@ -60,19 +65,23 @@ def _parameters(model: Base) -> tuple[Variable, ...]:
     own = {
         key: {name.rpartition(".")[2]: value for name, value in values.items() if name.startswith(f"{key}.")} for key in groups
     }
-    variables = tuple(one for key, component in groups.items() for one in parameters_of(key, component, own[key]))
+    variables = tuple(one for key, component in groups.items() for one in parameters_of(key, component, own[key], TUNABLE))
     return (*variables, *_sensor_parameters(model), *_options())
 
 
 def _sensor_parameters(model: Base) -> tuple[Variable, ...]:
     found: list[Variable] = []
+    names = ", ".join(sensor.name for sensor in model.sensors)
     for k, sensor in enumerate(model.sensors, 1):
         help = f"height of sensor {k} ({sensor.name}) above the bottom landing; negative in the pit"
-        found.append(Variable(f"sensors[{k}].height", "real", "parameter", help, "m", sensor.height, -20.0, 1000.0, 10.0))
-        side = f"sensor {k} looks at the counterweight's side; false: at the car's"
-        found.append(
-            Variable(f"sensors[{k}].on_counterweight_side", "boolean", "parameter", side, start=sensor.side == "counterweight")
+        heights = f"heights of the sensors ({names}) above the bottom landing; negative in the pit"
+        height = Variable(
+            f"sensors[{k}].height", "real", "parameter", help, "m", sensor.height, -20.0, 1000.0, 10.0, array=heights
         )
+        found.append(height)
+        side = f"sensor {k} looks at the counterweight's side; false: at the car's"
+        start, sides = sensor.side == "counterweight", "each sensor looks at the counterweight's side; false: at the car's"
+        found.append(Variable(f"sensors[{k}].on_counterweight_side", "boolean", "parameter", side, start=start, array=sides))
     return tuple(found)
 
 
@@ -116,9 +125,12 @@ def _outputs(sensors: int) -> tuple[Variable, ...]:
     seen: list[Variable] = []
     for k in range(1, sensors + 1):
         help = f"outward displacement of the rope at sensor {k}, from the vertical through the sheave's side"
-        seen.append(_output(f"lateral_displacement[{k}]", "real", help, "m", nominal=0.05, display_unit="mm"))
+        all_of = "outward displacement of the rope at each sensor, from the vertical through the sheave's side"
+        name = f"lateral_displacement[{k}]"
+        seen.append(_output(name, "real", help, "m", nominal=0.05, display_unit="mm", array=all_of))
         gap = f"the rope passes sensor {k}; false: its end has passed, and the displacement is that of the end"
-        seen.append(_output(f"in_view[{k}]", "boolean", gap))
+        gaps = "the rope passes each sensor; false: its end has passed, and the displacement is that of the end"
+        seen.append(_output(f"in_view[{k}]", "boolean", gap, array=gaps))
     numbers, tensions = (
         [_output(name, "real", help, unit, nominal=nominal) for name, unit, nominal, help in group]
         for group in (_OUTPUTS, _TENSIONS)

@@ -50,6 +50,13 @@ bool component_initialize(Tables *tables, double t, Message *problems)
     return kernel_succeeded(message, call_start_at_rest(tables, t), problems);
 }
 
+void component_tune(Tables *tables, const double *values)
+{
+    for (size_t k = 0; k < TUNABLE_COUNT; k++) {
+        tables->array[ROPEDATA_p][TUNABLE_SLOTS[k]] = values[SLOT_PLACES[TUNABLE_SLOTS[k]]];
+    }
+}
+
 bool component_step(Tables *tables, double t, double dt, Message *problems)
 {
     const double *message = tables->array[WORKSPACE_message];
