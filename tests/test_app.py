@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from starlette.testclient import TestClient
+from typer.main import get_command
 
 import comprope_system
 from comprope.errors import InputError, SimulationError
@@ -18,7 +19,7 @@ from comprope_system.app.state import State
 from comprope_system.app.workspace import Workspace, fingerprint, new_result, write_record
 from comprope_system.campaign_setup.column_roles import Role
 from comprope_system.campaign_setup.corrections import Corrections
-from comprope_system.cli import main
+from comprope_system.cli import app, main
 from comprope_system.measurements.campaign_file import read_campaign_file
 
 from . import virtual_elevator
@@ -116,8 +117,9 @@ def test_requests_of_another_form_are_a_sentence(client, content):
 
 
 def test_without_a_campaign_there_is_nothing_to_compute(client):
-    for path in ("/run/compare", "/jobs", "/replay", "/campaign"):
-        found = client.post(f"{path}?token={TOKEN}", json={"name": "diagnose", "effect": "a", "values": [1.0]}, headers=OWN)
+    for path in ("/run/compare", "/jobs", "/replay", "/campaign", "/overlay"):
+        given = {"name": "diagnose", "effect": "a", "values": [1.0], "source": "diagnose", "names": ["add air_drag"]}
+        found = client.post(f"{path}?token={TOKEN}", json=given, headers=OWN)
         assert found.status_code == 422 and found.json()["error"]
 
 
@@ -133,6 +135,35 @@ def test_the_commands_are_those_that_do_the_same(client, private):
         put(client, name, b"x")
     (command,) = client.get(f"/state?token={TOKEN}").json()["commands"]
     assert command.startswith(f"comprope new {private} 'a b.csv' up.csv --model tower.toml")
+
+
+def test_the_commands_of_models_name_start_and_overlay(client, private):
+    private.mkdir(parents=True)
+    (private / "campaign.toml").write_text(virtual_elevator.description())
+    results, start = Workspace(private).results(), {"effects.air_drag.drag_coefficient": 0.5}
+    made = {
+        "add air_drag from drag_coefficient 0.5": {"effect": "air_drag", "start": start},
+        "improve": {"effects": ["air_drag"]},
+        "overlay": {"models": ["improve", "add air_drag from drag_coefficient 0.5"]},
+    }
+    for k, (name, facts) in enumerate(made.items()):
+        with new_result(results, name) as folder:
+            write_record(folder, {"name": name, "headline": "", "finished": k, "facts": facts, "model": name != "overlay"})
+    add, improve, overlay = client.get(f"/state?token={TOKEN}").json()["commands"][-3:]
+    assert add.startswith(f"comprope add {private} air_drag --start effects.air_drag.drag_coefficient=0.5 --out model1.toml")
+    assert improve.startswith(f"comprope improve {private} --out model2.toml")
+    assert overlay == f"comprope compare {private} --model model2.toml --model model1.toml --report overlay.html"
+    options = {one for command in (add, improve, overlay) for one in command.split() if one.startswith("--")}
+    known = {text for one in get_command(app).commands.values() for each in one.params for text in each.opts}
+    assert options <= known
+
+
+def test_a_fit_from_a_setting_that_nobody_previewed_is_refused(client, private):
+    private.mkdir(parents=True)
+    (private / "campaign.toml").write_text(virtual_elevator.description())
+    asked = {"name": "add", "effect": "air_drag", "values": [1.0]}
+    found = client.post(f"/jobs?token={TOKEN}", json=asked, headers=OWN)
+    assert found.status_code == 422 and found.json()["error"] == "air_drag: there is no preview of it; diagnose first"
 
 
 # -- nothing by halves -------------------------------------------------------------------------------------
@@ -215,14 +246,15 @@ def described(raw, folder, corrections):
 
 def test_corrections_are_what_the_campaign_says(raw, tmp_path):
     stated = Corrections(
-        columns={"cw_low": Role("lateral_displacement", "cm", "car_low", -1), "car_low": Role(None)},
+        columns={"cw_low": Role("lateral_displacement", "cm", "car_low", -1, reference="absolute"), "car_low": Role(None)},
         roles={"up.csv": "validate", "up_short.csv": "fit"},
         changes={"up.csv": {"sheave.mass": 80.0}},
     )
     result = described(raw, tmp_path / "corrected", stated)
     found = read_campaign_file(result.path)
     one = next(channel for channel in found.channels if channel.column == "cw_low")
-    assert (one.unit, one.sensor, one.sign) == ("cm", "car_low", -1)
+    assert (one.unit, one.sensor, one.sign, one.reference) == ("cm", "car_low", -1, "absolute")
+    assert {channel.column: channel.reference for channel in found.channels}["axle"] == "rest"
     assert "car_low" not in [channel.column for channel in found.channels]
     assert {run.file: run.role for run in found.runs}["up.csv"] == "validate"
     assert next(run for run in found.runs if run.file == "up.csv").set == {"sheave.mass": 80.0}
@@ -234,6 +266,7 @@ def test_corrections_are_what_the_campaign_says(raw, tmp_path):
         (Corrections(columns={"cw_low": Role("lateral_displacement", "kg", "cw_low")}), "unit kg"),
         (Corrections(columns={"cw_low": Role("lateral_displacement", "mm", "attic")}), "a sensor of the model is needed"),
         (Corrections(columns={"cw_low": Role("lateral_displacement", "mm", "car_low")}), "is cw_low already|is car_low already"),
+        (Corrections(columns={"cw_low": Role("lateral_displacement", "mm", "cw_low", reference="sea")}), "reference sea"),
         (Corrections(columns={"nothing": Role(None)}), "no such column"),
         (Corrections(roles={"up.csv": "spare"}), "fit or validate"),
         (Corrections(changes={"up.csv": {"sheave.mass": -1.0}}), "sheave.mass"),

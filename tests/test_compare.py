@@ -6,6 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import comprope_system
+from comprope.errors import InputError
+from comprope.rope.model_file import dump, with_changes
 from comprope_system import cli
 from comprope_system.identification.comparison.compare import compare
 from comprope_system.identification.comparison.data_quality import remarks
@@ -108,6 +111,32 @@ def test_the_command_prints_and_writes(capsys, folder, tmp_path):
     assert json.loads(out.read_text())["runs"][0]["file"] == "up.csv"
     assert '<figure class="curves"' in page.read_text() and "up_short.csv" in page.read_text()
     assert "fails most at" in told and json.loads(out.read_text())["largest_error"]["file"] in page.read_text()
+
+
+def test_further_models_are_compared_with_the_same_runs(capsys, folder, comparison, tmp_path):
+    stiffer = with_changes(comparison.campaign.model, {"rope.bending_stiffness": 21.2})
+    dump(stiffer, tmp_path / "stiffer.toml")
+    out, page = tmp_path / "c.json", tmp_path / "c.html"
+    with pytest.raises(SystemExit) as done:
+        cli.main(["compare", str(folder), "--model", str(tmp_path / "stiffer.toml"), "--json", str(out), "--report", str(page)])
+    told, errors = capsys.readouterr()
+    assert (done.value.code, errors) == (0, "") and "stiffer.toml" in told
+    found = json.loads(out.read_text())
+    (variant,) = found["variants"]
+    with threads() as executor:
+        alone = compare(replace(comparison.campaign, model=stiffer), executor)
+    assert found["fit_nrmse"] == pytest.approx(comparison.fit_nrmse)
+    assert variant["validate_nrmse"] == pytest.approx(alone.validate_nrmse)
+    assert alone.validate_nrmse < 0.95 * comparison.validate_nrmse
+    assert page.read_text().count("stiffer.toml") > 1
+
+
+def test_a_further_model_without_the_sensors_of_the_campaign_is_refused(folder, comparison, tmp_path):
+    dump(comparison.campaign.model.model_copy(update={"sensors": ()}), tmp_path / "blind.toml")
+    with pytest.raises(InputError, match=r"blind\.toml: lacks the sensor .*cw_low"):
+        comprope_system.compare(folder, models=[tmp_path / "blind.toml"])
+    with pytest.raises(InputError, match="6 are compared"):
+        comprope_system.compare(folder, models={str(k): tmp_path / "blind.toml" for k in range(9)})
 
 
 @pytest.mark.parametrize("command", ["compare", "diagnose", "add", "improve"])

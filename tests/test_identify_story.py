@@ -5,6 +5,7 @@ true, unknown to the model. It fails here; this is missing; it is added; the err
 """
 
 import json
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -13,6 +14,7 @@ import pytest
 from fmpy import read_model_description
 
 import comprope_system
+from comprope.errors import InputError
 from comprope.rope.effects import REGISTRY
 from comprope.rope.model_file import load
 from comprope_system import cli
@@ -25,6 +27,7 @@ from comprope_system.identification.estimation.parameter_estimates import effect
 from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect
 from comprope_system.identification.hypotheses.model_effects import shape_hypotheses
 from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
+from comprope_system.identification.model_updating import add_effect
 from comprope_system.identification.model_updating import stepwise_selection as steps
 from comprope_system.identification.model_updating.add_effect import campaign_parameters, file_comment, fit_baseline
 from comprope_system.identification.reporting.pages.verdict_card import verdict_card
@@ -260,6 +263,48 @@ def test_the_card_of_a_verdict_says_what_the_result_says(validated):
     assert f"{100.0 * validated.best.fit_nrmse:.3g} %" in facts["error"]
     assert facts["next run to measure"].startswith("none") and "sheave eccentricity" not in facts["could not have been seen"]
     assert card.command.startswith("comprope ") and str(validated.diagnosis.campaign.folder) in card.command
+
+
+def test_the_card_leads_to_the_curves_that_betray_the_effect(validated):
+    shown = verdict_card(validated, ()).evidence
+    assert 0 < len(shown) <= 3 and len({text for text, _ in shown}) == len(shown)
+    columns = [one.column for one in validated.best.runs[0].channels]
+    for text, target in shown:
+        run = validated.best.runs[target.group]
+        assert text.startswith(f"{columns[target.panel]} in {run.file}, {target.span}: ")
+        without, with_it = (float(one) for one in re.findall(r"([\d.]+) %", text))
+        channel = validated.refitted.runs[target.group].channels[target.panel]
+        assert without == pytest.approx(100.0 * channel.by_phase[target.span.replace(" ", "_")], rel=6e-3)
+        assert with_it < 0.5 * without
+    assert "turning" not in shown[0][0]  # the sheave turns as before; its axle moves
+
+
+def test_a_fit_begins_where_it_is_told(campaign, executor, better, monkeypatch):
+    def refused(*_):
+        raise AssertionError("a fit that is told where to begin needs no screening")
+
+    monkeypatch.setattr(add_effect, "promising_frequencies", refused)
+    monkeypatch.setattr(add_effect, "best_initial_guess", refused)
+    size, phase = "effects.sheave_eccentricity.eccentricity", "effects.sheave_eccentricity.phase"
+    found = comprope_system.add(campaign, "sheave_eccentricity", start={size: 1e-3, phase: 0.3}, executor=executor)
+    assert found.parameters[size].value == pytest.approx(better.effects[size].value, rel=1e-2)
+    assert found.parameters[size].standard_error > 0.0
+    assert found.after.fit_nrmse == pytest.approx(better.after.fit_nrmse, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("effect", "start", "said"),
+    [
+        ("air_drag", "effects.air_drag.drag_coefficient=-1", "--start: effects.air_drag.drag_coefficient = -1"),
+        ("air_drag", "effects.guide_friction.coulomb_force=1", "values of effects.air_drag.PARAMETER are accepted"),
+        ("air_drag", "drag", "--start drag: KEY=VALUE is accepted"),
+        ("sensor_gain.axle", "effects.sensor_gain.turning=1.1", "values of effects.sensor_gain.axle are accepted"),
+    ],
+)
+def test_a_start_that_cannot_be_is_refused_in_a_sentence(campaign, effect, start, said):
+    with pytest.raises(InputError) as error:
+        comprope_system.add(campaign, effect, start=[start])
+    assert said in str(error.value) and "\n" not in str(error.value)
 
 
 def test_the_card_of_an_unknown_effect_names_the_next_run(validated):

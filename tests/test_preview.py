@@ -198,6 +198,58 @@ def test_dragging_a_slider_moves_curves_and_errors_as_computed(page, two, gain, 
 
 
 @needs_chromium
+def test_settings_are_pinned_undone_and_kept_over_a_reload(page, two):
+    drawn = """() => compropeCurves.get("preview_curves").groups.find((one) => one.panels).panels[0]
+      .panel.curves.map((one) => one.name)"""
+    with opened(page.as_uri()) as shown:
+        assert "stays a preview" in shown.locator(".preview .acts").text_content()
+        slider, pins = shown.get_by_label("coulomb torque [N·m]", exact=True), shown.locator(".pins tbody tr")
+        first = slider.input_value()
+        for _ in range(30):
+            slider.press("ArrowRight")
+        second = slider.input_value()
+        shown.get_by_role("button", name="Pin").click()
+        shown.get_by_role("button", name="Pin").click()  # the same again is not drawn twice
+        expect(pins).to_have_count(1)
+        at = tuple(shown.evaluate("compropePreviews.get('preview').at"))
+        expect(pins.locator("td").nth(1)).to_have_text(f"{100.0 * two.nrmse(at, 'fit'):.3g} %")
+        for _ in range(30):
+            shown.get_by_role("button", name="Undo").click()
+        expect(slider).to_have_value(first)
+        expect(shown.get_by_role("button", name="Undo")).to_be_disabled()
+        assert len(shown.evaluate(drawn)) == 3 and shown.evaluate(drawn)[1].startswith("bearing friction: coulomb torque")
+        shown.reload()
+        expect(pins).to_have_count(1)
+        expect(shown.get_by_label("coulomb torque [N·m]", exact=True)).to_have_value(first)
+        pins.get_by_role("button", name="go there").click()
+        expect(shown.get_by_label("coulomb torque [N·m]", exact=True)).to_have_value(second)
+        pins.get_by_role("button", name="remove").click()
+        expect(pins).to_have_count(0)
+        assert shown.evaluate(drawn) == ["measured", "model"]
+
+
+@needs_chromium
+def test_a_replay_stays_until_the_hand_moves_on(page, two):
+    with opened(page.as_uri()) as shown:
+        slider = shown.get_by_label("coulomb torque")
+        slider.press("ArrowLeft")
+        told = """() => {
+          const preview = compropePreviews.get("preview"), errors = { fit: 0.123, validate: 0.456 };
+          const empty = ({ data }) => [data.name, Object.fromEntries(data.panels.map((one) => [one.name, []]))];
+          const curves = Object.fromEntries(preview.curves.groups.map(empty));
+          preview.replayed({ effect: preview.effect.name, values: [...preview.at] }, { errors, curves });
+        }"""
+        shown.evaluate(told)
+        expect(shown.locator(".badge")).to_have_text("replayed")
+        shown.locator("#preview .switches").first.locator("button[aria-pressed=false]").first.click()  # another run
+        expect(shown.locator(".badge")).to_have_text("replayed")
+        assert [shown_error(shown, role) for role in ("fit", "validate")] == pytest.approx([0.123, 0.456])
+        slider.press("ArrowLeft")
+        expect(shown.locator(".badge")).to_have_text("preview")
+        assert shown_error(shown, "fit") != pytest.approx(0.123)
+
+
+@needs_chromium
 def test_sliders_obey_the_keyboard_and_fit_a_narrow_window(page):
     with opened(page.as_uri(), 700) as shown:
         slider = shown.get_by_label("coulomb torque")

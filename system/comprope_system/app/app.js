@@ -32,6 +32,8 @@ addEventListener("hashchange", () => { tell(""); go(location.hash.slice(1)); });
 
 function show(state) {
   find("#folder").textContent = state.folder;
+  find("#stage").textContent = state.exists ? "" : ": a new one, nothing is saved yet";
+  find("#welcome").hidden = state.exists;
   const names = new Set(state.results.map((one) => one.name)), done = { data: state.exists, check: names.has("check"), compare: names.has("compare"), diagnose: names.has("diagnose"), add: state.results.some((one) => one.model) };
   for (const tab of tabs) tab.classList.toggle("done", Boolean(done[tab.dataset.step]));
   if (first) go(location.hash.slice(1) || (state.exists ? "compare" : "data"));

@@ -1,31 +1,24 @@
 """The other steps, as worker processes do them: each calls a public function and writes its result, completely or not at all."""
 
-import pickle
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
+from functools import partial
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 import comprope_system
 from comprope.errors import InputError
 
-from ..identification.comparison.compare import compare as compare_at
-from ..identification.preview.effect_preview import EffectPreview
-from ..identification.preview.sliders import moved
-from ..identification.reporting.pages.comparison import worst_run
-from ..identification.reporting.pages.preview import preview_block
-from ..identification.result.diagnosis import DiagnosisResult
-from ..parallel.executors import threads
+from ..identification.reporting.texts.estimate_sentences import estimate_in_words
+from ..identification.result.updating import AddResult, ImproveResult
 from ..parallel.progress import Progress
-from ..report.curves import decode
 from ..report.json_output import plain
 from ..report.result import Result
+from .replays import keep_previews
 from .workspace import new_result, write_record
 
-PAGE, JSON, MODEL, PREVIEWS = "report.html", "output.json", "model.toml", "previews.pickle"
+PAGE, JSON, MODEL = "report.html", "output.json", "model.toml"
 FMUS = "fmus"
 
 
@@ -38,7 +31,18 @@ def check(campaign: Path, results: Path) -> dict[str, Any]:
 def compare(campaign: Path, results: Path) -> dict[str, Any]:
     """The model against the measurements."""
     found = comprope_system.compare(campaign, previews=True)
-    return _kept(results, "compare", found, {"fit_nrmse": found.fit_nrmse, "validate_nrmse": found.validate_nrmse})
+    facts = {"fit_nrmse": found.fit_nrmse, "validate_nrmse": found.validate_nrmse}
+    shown = partial(keep_previews, previews=found.previews, given=found.comparison, fitted=False)
+    return _kept(results, "compare", found, facts, shown)
+
+
+def overlay(campaign: Path, results: Path, names: list[str]) -> dict[str, Any]:
+    """The models of some results drawn together over the measurements."""
+    models = {name.removeprefix("add "): results / name / MODEL for name in names}
+    if not models or not all(path.is_file() for path in models.values()):
+        raise InputError("no models to be drawn together: choose some that have been made")
+    found = comprope_system.compare(campaign, models=models)
+    return _kept(results, "overlay", found, {"models": names})
 
 
 def diagnose(campaign: Path, results: Path, executor: Executor, progress: Progress) -> dict[str, Any]:
@@ -46,15 +50,20 @@ def diagnose(campaign: Path, results: Path, executor: Executor, progress: Progre
     found = comprope_system.diagnose(campaign, executor=executor, previews=True, progress=progress)
     ranking = [{"effect": one["effect"], "probability": one["probability"], "nrmse": one["error_after"]} for one in found.ranking]
     facts = {"verdict": found.verdict, "verdict_kind": found.verdict_kind, "ranking": ranking}
-    return _kept(results, "diagnose", found, facts, lambda folder: _keep_previews(folder, found))
+    shown = partial(keep_previews, previews=found.previews, given=found.validated.before, fitted=True)
+    return _kept(results, "diagnose", found, facts, shown)
 
 
-def add(campaign: Path, results: Path, executor: Executor, progress: Progress, effect: str) -> dict[str, Any]:
-    """Add an effect to the model."""
-    found = comprope_system.add(campaign, effect, executor=executor, progress=progress)
-    facts = {"effect": effect, "before": found.before.fit_nrmse, "after": found.after.fit_nrmse}
+def add(
+    campaign: Path, results: Path, executor: Executor, progress: Progress, effect: str, start: dict[str, float] | None = None
+) -> dict[str, Any]:
+    """Add an effect to the model, fitted from values by model key if they are stated."""
+    found = comprope_system.add(campaign, effect, start=start, executor=executor, progress=progress)
+    stated = ", ".join(f"{key.split('.', 2)[2]} {value:.4g}" for key, value in (start or {}).items())
+    name = f"add {effect}{f' from {stated}' if stated else ''}"
+    facts: dict[str, Any] = {"effect": effect, "start": start, "before": found.before.fit_nrmse, "after": found.after.fit_nrmse}
     facts |= {"validate_before": found.before.validate_nrmse, "validate_after": found.after.validate_nrmse}
-    return _kept(results, f"add {effect}", found, facts, lambda folder: found.save_model(folder / MODEL))
+    return _kept(results, name, found, facts | _values(found), lambda folder: found.save_model(folder / MODEL))
 
 
 def improve(campaign: Path, results: Path, executor: Executor, progress: Progress) -> dict[str, Any]:
@@ -62,7 +71,7 @@ def improve(campaign: Path, results: Path, executor: Executor, progress: Progres
     found = comprope_system.improve(campaign, executor=executor, progress=progress)
     facts = {"effects": found.effects, "before": found.before.fit_nrmse, "after": found.after.fit_nrmse}
     facts |= {"validate_before": found.before.validate_nrmse, "validate_after": found.after.validate_nrmse}
-    return _kept(results, "improve", found, facts, lambda folder: found.save_model(folder / MODEL))
+    return _kept(results, "improve", found, facts | _values(found), lambda folder: found.save_model(folder / MODEL))
 
 
 def fmus(results: Path, name: str, native: bool) -> dict[str, Any]:
@@ -74,54 +83,11 @@ def fmus(results: Path, name: str, native: bool) -> dict[str, Any]:
     return {"files": sorted(path.name for path in (results / name / FMUS).iterdir())}
 
 
-def replay(results: Path, effect: str, values: list[float]) -> dict[str, Any]:
-    """A true replay of a previewed effect at values in the units of the page: NRMSE by role, and curves at the drawn places."""
-    try:
-        kept = pickle.loads((results / "diagnose" / PREVIEWS).read_bytes())  # of this user's own private folder
-        preview: EffectPreview = next(one for one in kept["previews"] if one.name == effect)
-        in_si = [value / factor for value, factor in zip(values, kept["factors"][effect], strict=True)]
-    except (OSError, StopIteration, ValueError):
-        raise InputError(f"{effect}: there is no preview of it; diagnose first") from None
-    campaign, point = preview.campaign, moved(preview.point, preview.sliders, in_si)
-    with threads() as workers:
-        found = compare_at(campaign, workers, point)
-    curves = {
-        file: {
-            column: _drawn(next(one.time for one in campaign.runs if one.file == file),
-                           found.predictions[file, column] / campaign.channels[column].scale, place)
-            for column, place in columns.items()
-        }
-        for file, columns in kept["places"].items()
-    }  # fmt: skip
-    return {"errors": {"fit": _or_none(found.fit_nrmse), "validate": _or_none(found.validate_nrmse)}, "curves": curves}
-
-
-def _drawn(time_of_run: Any, values: Any, place: Any) -> list[float | None]:
-    """Values at the places that are drawn; None where there is none."""
-    known = np.isfinite(values)
-    found = np.interp(place, time_of_run[known], values[known], np.nan, np.nan) if known.any() else np.full(len(place), np.nan)
-    return [_or_none(float(f"{one:.6g}")) for one in found]
-
-
-def _keep_previews(folder: Path, found: DiagnosisResult) -> None:
-    """What a true replay needs to know of the previews of a page."""
-    if not found.previews:
-        return
-    before = found.validated.before
-    shown = preview_block(found.previews, before, worst_run(before), fitted=True)
-    places = {
-        group["name"]: {panel["name"]: decode(panel["place"]) for panel in group["panels"]}
-        for group in shown.curves.curve_data["groups"]
-    }
-    factors = {
-        one.name: [
-            part.nodes[part.centre] / slider.value if slider.value else part.nodes[-1] / slider.nodes[-1]
-            for part, slider in zip(block.sliders, one.sliders, strict=True)
-        ]
-        for one, block in zip(found.previews, shown.effects, strict=True)
-    }
-    kept = {"previews": found.previews, "places": places, "factors": factors}
-    (folder / PREVIEWS).write_bytes(pickle.dumps(kept))
+def _values(found: AddResult | ImproveResult) -> dict[str, Any]:
+    """Parameters of the effects of a new model in words, with their intervals."""
+    channels = found.campaign.channels
+    told = [estimate_in_words(channels, key, one) for key, one in found.parameters.items() if not key.endswith(".phase")]
+    return {"values": [f"{name} {value} ({interval})" for name, value, interval in told]}
 
 
 def _kept(
@@ -136,10 +102,6 @@ def _kept(
         record["model"] = (folder / MODEL).is_file()
         write_record(folder, record)
     return record
-
-
-def _or_none(value: float) -> float | None:
-    return value if np.isfinite(value) else None
 
 
 COMPUTATIONS: dict[str, Callable[..., dict[str, Any]]] = {"diagnose": diagnose, "add": add, "improve": improve}

@@ -90,6 +90,7 @@ function render() {
   const problems = find("#problems");
   problems.replaceChildren();
   for (const one of found.problems) make(problems, "li", {}, one);
+  if (found.remarks.length) make(problems, "li", { class: "head" }, "Remarks. The keys named are those of campaign.toml, which is written with what stands above:");
   for (const one of found.remarks) make(problems, "li", { class: "soft" }, one);
   if (focus) document.getElementById(focus)?.focus();
 }
@@ -115,22 +116,24 @@ function head(table, names) {
 }
 
 function columnTable() {
-  const body = head(find("#columns"), ["column", "taken for", "sensor", "unit", "sign", "how surely"]);
+  const body = head(find("#columns"), ["column", "taken for", "sensor", "unit", "sign", "zero", "how surely"]);
   found.columns.forEach((one, k) => {
     const row = make(body, "tr"), units = state.units[one.quantity] ?? [];
     const change = (values) => {
-      const now = { quantity: one.quantity, unit: one.unit, sensor: one.sensor, sign: one.sign, ...values }, units = state.units[now.quantity] ?? [];
+      const now = { quantity: one.quantity, unit: one.unit, sensor: one.sensor, sign: one.sign, reference: one.reference, ...values }, units = state.units[now.quantity] ?? [];
       if (!units.includes(now.unit)) now.unit = units[0] ?? "";
+      if ("quantity" in values) now.reference = null; // the usual one of the new quantity
       if (now.quantity !== "lateral_displacement") now.sensor = null; else now.sensor ??= free(one);
       stated.columns[one.column] = now;
     };
     make(row, "td", {}, one.column);
     const quantities = [["", one.same_as ? `as ${one.same_as}` : LEFT_OUT], ...Object.keys(state.units).map((name) => [name, name.replaceAll("_", " ")])];
     select(make(row, "td"), `quantity-${k}`, `quantity of ${one.column}`, quantities, one.quantity ?? "", (value) => change({ quantity: value || null }));
-    const sensor = make(row, "td"), unit = make(row, "td"), sign = make(row, "td");
+    const sensor = make(row, "td"), unit = make(row, "td"), sign = make(row, "td"), zero = make(row, "td");
     if (one.quantity === "lateral_displacement") select(sensor, `sensor-${k}`, `sensor of ${one.column}`, found.sensors.map((name) => [name, name]), one.sensor, (value) => change({ sensor: value }));
     if (units.length) select(unit, `unit-${k}`, `unit of ${one.column}`, units.map((name) => [name, name]), one.unit, (value) => change({ unit: value }));
     if (one.quantity) select(sign, `sign-${k}`, `sign of ${one.column}`, [["1", "+"], ["-1", "−"]], `${one.sign}`, (value) => change({ sign: +value }));
+    if (one.quantity) select(zero, `zero-${k}`, `zero of ${one.column}`, [["rest", "at rest"], ["absolute", "as recorded"]], one.reference, (value) => change({ reference: value }));
     make(row, "td", { class: "why" }, `${one.certainty}: ${one.why}`);
   });
 }

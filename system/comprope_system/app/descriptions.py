@@ -49,10 +49,11 @@ def _corrections(stated: Mapping[str, Any]) -> Corrections:
     try:
         columns = {
             name: Role(
-                one["quantity"] or None, one.get("unit") or "", one.get("sensor") or None, -1 if one.get("sign") == -1 else 1
+                one["quantity"] or None, one.get("unit") or "", one.get("sensor") or None, -1 if one.get("sign") == -1 else 1,
+                reference=one.get("reference") or None,
             )
             for name, one in stated.get("columns", {}).items()
-        }
+        }  # fmt: skip
         changes = {
             file: {key: float(value) for key, value in one.items()} for file, one in stated.get("changes", {}).items() if one
         }

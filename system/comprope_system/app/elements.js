@@ -44,6 +44,7 @@ export function showPage(frame, address, key, loaded = () => {}) {
     const fit = () => { frame.style.height = `${frame.contentDocument.body.scrollHeight + 4}px`; };
     new ResizeObserver(fit).observe(frame.contentDocument.body);
     inner.style.overflowY = "hidden";
+    inner.classList.add("framed");
     fit();
     loaded(frame.contentWindow);
   };

@@ -3,14 +3,15 @@ import { ask, duration, find, make, percent, showPage } from "./elements.js";
 
 const SHORT = { check: "Check", compare: "Compare" };
 const SETTLED = 400; // ms without a further movement until what a slider was moved to is simulated
-let state = null, busy = null, chosen = null, touched = false;
+const ticked = new Set(); // names of the models to be drawn together
+let state = null, busy = null, chosen = null, touched = false, drawing = false;
 
 export function showModels(now) {
   state = now;
   const results = Object.fromEntries(now.results.map((one) => [one.name, one])), running = now.job?.state === "running";
   for (const frame of document.querySelectorAll("iframe[data-report]")) {
     const name = frame.dataset.report, one = results[name];
-    if (one) showPage(frame, `/report/${name}`, `${one.finished}`, name === "diagnose" ? follow : undefined); else { frame.hidden = true; delete frame.dataset.key; }
+    if (one) showPage(frame, `/report/${name}`, `${one.finished}`, name === "check" ? undefined : (inner) => follow(inner, name)); else { frame.hidden = true; delete frame.dataset.key; }
   }
   for (const button of document.querySelectorAll("[data-run]")) button.disabled = !now.exists || busy !== null;
   for (const button of document.querySelectorAll("[data-job]")) button.disabled = !now.exists || running;
@@ -32,8 +33,8 @@ for (const button of document.querySelectorAll("[data-run]")) {
   });
 }
 
-for (const button of document.querySelectorAll("[data-job]")) button.addEventListener("click", () => start(button.dataset.job, find("#effect").value));
-const start = (name, effect) => ask("POST", "/jobs", name === "add" ? { name, effect } : { name });
+for (const button of document.querySelectorAll("[data-job]")) button.addEventListener("click", () => start(button.dataset.job, { effect: find("#effect").value }));
+const start = (name, given) => ask("POST", "/jobs", name === "add" ? { name, ...given } : { name });
 
 // -- the running job -----------------------------------------------------------------------------------
 function showJob({ job, interrupted }) {
@@ -48,7 +49,7 @@ const title = ({ name, arguments: given }) => ({ diagnose: "The diagnosis", add:
 function offer(box, job, text, word) {
   make(box, "p", { class: "title" }, text);
   const row = make(box, "p");
-  make(row, "button", { type: "button", class: "main" }, word).addEventListener("click", () => start(job.name, job.arguments?.effect));
+  make(row, "button", { type: "button", class: "main" }, word).addEventListener("click", () => start(job.name, job.arguments));
   make(row, "button", { type: "button" }, "Dismiss").addEventListener("click", () => ask("DELETE", "/job"));
 }
 
@@ -87,17 +88,21 @@ function row(body, cells) {
 }
 
 // -- true replays of what a slider was moved to ---------------------------------------------------------
-function follow(inner) {
-  const told = find("#replayed");
+function follow(inner, source) {
+  const told = find(`.replayed[data-source=${source}]`), preview = inner.compropePreviews?.get("preview");
   let latest = null, waiting = null, simulating = false;
+  told.textContent = "";
+  if (!preview) return;
+  inner.document.documentElement.classList.add("in-app");
+  if (source === "diagnose") fitFromHere(preview);
   const simulate = async () => {
     if (simulating) return; // one at a time; the latest values are next
     simulating = true;
     for (let mine = null; mine !== latest;) {
       mine = latest;
       told.textContent = "Simulating with the values of the sliders …";
-      const found = await ask("POST", "/replay", mine);
-      if (mine === latest && found) inner.compropePreviews.get("preview").replayed(mine, found);
+      const found = await ask("POST", "/replay", { source, ...mine });
+      if (mine === latest && found) preview.replayed(mine, found);
       told.textContent = found ? "The curves below are simulated with the values of the sliders." : "";
     }
     simulating = false;
@@ -106,6 +111,15 @@ function follow(inner) {
     latest = event.detail;
     clearTimeout(waiting);
     waiting = setTimeout(simulate, SETTLED);
+  });
+}
+
+// A button beside the sliders: the fit begins at what they show.
+function fitFromHere(preview) {
+  const button = make(preview.figure.querySelector(".acts"), "button", { type: "button", class: "fit" }, "Fit from here");
+  button.addEventListener("click", async () => {
+    const { effect, at } = preview.setting();
+    if (await start("add", { effect, values: at })) location.hash = "add";
   });
 }
 
@@ -126,23 +140,48 @@ const best = ({ verdict, name }) => state.effects.find((one) => one === (name ??
 function variants(models) {
   const table = find("#variants");
   table.replaceChildren();
-  if (!models.length) { find("#variant").hidden = true; return; }
+  if (!models.length) { find("#variant").hidden = true; find("#together").hidden = true; return; }
   const row = make(make(table, "thead"), "tr");
-  for (const one of ["model", "NRMSE, fit runs", "validation runs", ""]) make(row, "th", {}, one);
+  for (const one of ["", "model", "NRMSE, fit runs", "validation runs", "effect, with its 95 % interval", ""]) make(row, "th", {}, one);
   const body = make(table, "tbody");
   const { before, validate_before: held } = models[0].facts, given = make(body, "tr");
-  for (const one of ["as given", percent(before), percent(held), ""]) make(given, "td", {}, one);
-  if (!models.some((one) => one.name === chosen)) chosen = models[models.length - 1].name;
+  for (const one of ["", "as given", percent(before), percent(held), "", ""]) make(given, "td", {}, one);
+  for (const name of ticked) if (!models.some((one) => one.name === name)) ticked.delete(name);
+  if (!state.results.some((one) => one.name === chosen && (one.model || one.name === "overlay"))) chosen = models[models.length - 1].name;
   for (const { name, facts } of models) {
-    const line = make(body, "tr"), told = facts.effect ?? `improved: ${facts.effects.join(", ")}`;
+    const line = make(body, "tr"), told = facts.effect ? name.replace("add ", "") : `improved: ${facts.effects.join(", ")}`;
+    const tick = make(make(line, "td"), "input", { type: "checkbox", "aria-label": `draw ${name} together with others`, value: name });
+    tick.checked = ticked.has(name);
+    tick.addEventListener("change", () => { if (tick.checked) ticked.add(name); else ticked.delete(name); together(); });
     for (const one of [told.replaceAll("_", " "), percent(facts.after), percent(facts.validate_after)]) make(line, "td", {}, one);
+    const values = make(line, "td", { class: "values" });
+    for (const one of facts.values ?? []) make(values, "div", {}, one.replaceAll("_", " "));
     const cell = make(line, "td");
     make(cell, "button", { type: "button", "aria-pressed": name === chosen }, "show").addEventListener("click", () => { chosen = name; showModels(state); });
     make(cell, "button", { type: "button", "aria-label": `remove ${name}` }, "remove").addEventListener("click", () => ask("DELETE", `/results/${encodeURIComponent(name)}`));
   }
-  const shown = models.find((one) => one.name === chosen);
+  together();
+  const shown = state.results.find((one) => one.name === chosen);
   showPage(find("#variant"), `/report/${encodeURIComponent(chosen)}`, `${shown.name} ${shown.finished}`);
 }
+
+// Models drawn over one another, in the order in which they were ticked.
+function together() {
+  find("#together").hidden = state.results.filter((one) => one.model).length < 2;
+  find("#overlay").disabled = drawing || ticked.size < 2;
+}
+
+find("#overlay").addEventListener("click", async () => {
+  const button = find("#overlay"), text = button.textContent;
+  drawing = true;
+  button.disabled = true;
+  button.textContent = "simulating …";
+  const made = await ask("POST", "/overlay", { names: [...ticked] });
+  drawing = false;
+  button.textContent = text;
+  if (made) { chosen = made.name; const now = await ask("GET", "/state"); if (now) showModels(now); }
+  together();
+});
 
 function takeAway({ results, commands }) {
   const box = find("#takeaway");

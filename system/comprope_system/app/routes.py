@@ -14,7 +14,7 @@ from starlette.routing import Route
 
 from comprope.errors import CompropeError, InputError
 
-from . import computations, descriptions, page
+from . import computations, descriptions, page, replays
 from .computations import COMPUTATIONS, JSON, MODEL, PAGE
 from .desk import Desk
 from .state import State
@@ -39,7 +39,8 @@ class Routes:
             ("/", "GET"): self.index, ("/static/{name}", "GET"): self.static, ("/state", "GET"): self.shown,
             ("/events", "GET"): self.events, ("/files/{name}", "PUT"): self.upload, ("/files/{name}", "DELETE"): self.remove,
             ("/describe", "POST"): self.describe, ("/campaign", "POST"): self.save, ("/run/{name}", "POST"): self.run,
-            ("/replay", "POST"): self.replay, ("/fmus", "POST"): self.fmus, ("/jobs", "POST"): self.start,
+            ("/replay", "POST"): self.replay, ("/overlay", "POST"): self.overlay,
+            ("/fmus", "POST"): self.fmus, ("/jobs", "POST"): self.start,
             ("/job", "DELETE"): self.cancel, ("/results/{name}", "DELETE"): self.forget,
             ("/preview", "GET"): self.preview, ("/report/{name}", "GET"): self.report,
             ("/download/{name}/{file}", "GET"): self.download,
@@ -114,13 +115,18 @@ class Routes:
         found = await self.desk.run(SHORT[name], self.state.workspace.campaign, self.state.workspace.results())
         return self._news_and(found)
 
+    async def overlay(self, request: Request) -> Response:
+        """The models of some results, drawn together."""
+        names = [self._known(str(one)) for one in (await body(request))["names"]]
+        workspace = self.state.workspace
+        return self._news_and(await self.desk.run(computations.overlay, workspace.campaign, workspace.results(), names))
+
     async def replay(self, request: Request) -> Response:
         """A true replay of what a slider was moved to."""
         asked = await body(request)
         self._require_campaign()
-        values = [float(one) for one in asked["values"]]
-        results = self.state.workspace.results()
-        return JSONResponse(await self.desk.run(computations.replay, results, str(asked["effect"]), values))
+        results, source = self.state.workspace.results(), str(asked["source"])
+        return JSONResponse(await self.desk.run(replays.replay, results, source, str(asked["effect"]), numbers(asked["values"])))
 
     async def fmus(self, request: Request) -> Response:
         """Build the FMUs of a result."""
@@ -136,7 +142,13 @@ class Routes:
         name, effect = str(asked["name"]), asked.get("effect")
         if name not in COMPUTATIONS or (name == "add") != isinstance(effect, str):
             raise InputError(f"{name}: {', '.join(COMPUTATIONS)} are accepted, add with an effect")
-        self.state.start(name, {"effect": effect} if name == "add" else {})
+        arguments: dict[str, Any] = {"effect": effect} if name == "add" else {}
+        if name == "add" and "values" in asked:
+            found = self.desk.run(replays.start_of_fit, self.state.workspace.results(), effect, numbers(asked["values"]))
+            arguments["start"] = await found
+        elif name == "add" and "start" in asked:
+            arguments["start"] = {str(key): float(value) for key, value in asked["start"].items()}
+        self.state.start(name, arguments)
         return self._news_and({})
 
     async def cancel(self, request: Request) -> Response:
@@ -192,6 +204,11 @@ async def body(request: Request) -> dict[str, Any]:
         if isinstance(found, dict):
             return found
     raise InputError("the request is no JSON object")
+
+
+def numbers(values: Any) -> list[float]:
+    """Numbers of a request."""
+    return [float(one) for one in values]
 
 
 def explained(answer: Callable[[Request], Any]) -> Callable[[Request], Any]:

@@ -90,13 +90,17 @@ class State:
         found += [f"comprope check {folder}"] if workspace.exists else []
         found += [f"comprope compare {folder} --report compare.html"] if "compare" in names else []
         found += [f"comprope diagnose {folder} --report diagnose.html"] if "diagnose" in names else []
-        updated = "--out model.toml --report model.html --fmu fmus"
-        found += [
-            f"comprope {shlex.join(one.split())} {updated}".replace("add ", f"add {folder} ", 1)
-            for one in names
-            if one[:4] == "add "
-        ]
-        return found + ([f"comprope improve {folder} {updated}"] if "improve" in names else [])
+        files: dict[str, str] = {}  # model files by the name of the result
+        for name, facts in ((name, one["facts"]) for name, one in names.items() if one["model"]):
+            files[name] = f"model{len(files) + 1}"
+            start = [f"--start {shlex.quote(f'{key}={value:.6g}')}" for key, value in (facts.get("start") or {}).items()]
+            what = ["add", folder, shlex.quote(facts["effect"]), *start] if "effect" in facts else ["improve", folder]
+            out = files[name]
+            found.append(f"comprope {' '.join(what)} --out {out}.toml --report {out}.html --fmu {out}_fmus")
+        if "overlay" in names:
+            models = [f"--model {files[one]}.toml" for one in names["overlay"]["facts"]["models"] if one in files]
+            found.append(f"comprope compare {folder} {' '.join(models)} --report overlay.html")
+        return found
 
 
 def _new_command(folder: str, files: list[str]) -> list[str]:

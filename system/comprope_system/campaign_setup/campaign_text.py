@@ -22,8 +22,7 @@ def campaign_text(
     for column, role, noise in channels:
         lines += [f"[[channels]]  # {role.certainty}: {printable(role.why, 100)}", f"column = {_value(column)}"]
         lines += [f"quantity = {_value(role.quantity)}", *([f"sensor = {_value(role.sensor)}"] if role.sensor else [])]
-        reference = "absolute" if role.quantity == "sheave_angular_velocity" else "rest"
-        lines += [f"unit = {_value(role.unit)}", *(["sign = -1"] if role.sign < 0 else []), f"reference = {_value(reference)}"]
+        lines += [f"unit = {_value(role.unit)}", *(["sign = -1"] if role.sign < 0 else []), f"reference = {_value(role.zero)}"]
         lines += [*([f"noise = {noise:g}"] if noise else []), ""]
     for run in runs:
         lines += ["[[runs]]", f"file = {_value(run.file)}", f"role = {_value(run.role)}"]

@@ -44,7 +44,7 @@ METRES = {"lateral_displacement": 0.5, "sheave_displacement": 5e-3}  # largest d
 class Role:
     """What a column is taken for: quantity, sensor, unit and sign of a channel, how surely, and why.
 
-    `quantity` None is no channel of its own: left out, or what other files name `same_as`.
+    `quantity` None is no channel of its own: left out, or what other files name `same_as`. `reference` None is the usual one.
     """
 
     quantity: str | None
@@ -54,6 +54,12 @@ class Role:
     certainty: str = GUESS
     why: str = ""
     same_as: str | None = None
+    reference: str | None = None
+
+    @property
+    def zero(self) -> str:
+        """What the channel is relative to: its mean at rest before the trip, or nothing ("absolute"), unless stated otherwise."""
+        return self.reference or ("absolute" if self.quantity == "sheave_angular_velocity" else "rest")
 
     @property
     def shown(self) -> str:

@@ -13,13 +13,14 @@ from ..measurements.units import UNITS
 from .column_roles import STATED, SURE, Role
 
 ROLES = ("fit", "validate")
+REFERENCES = ("rest", "absolute")
 
 
 @dataclass(frozen=True)
 class Corrections:
     """What is stated: the column of the car, channels by column, the role of runs and their changes of the model by file.
 
-    A channel is a `Role`, of which quantity, unit, sensor and sign count; quantity None leaves the column out.
+    A channel is a `Role`, of which quantity, unit, sensor, sign and reference count; quantity None leaves the column out.
     """
 
     car: MotionColumn = field(default_factory=MotionColumn)
@@ -55,6 +56,8 @@ def _problems(name: str, one: Role, found: Mapping[str, Role], model: RopeModel)
     if one.unit not in UNITS[one.quantity]:
         accepted = ", ".join(UNITS[one.quantity])
         return [f"{printable(name)}: unit {printable(one.unit)}: for {one.quantity} {accepted} are accepted"]
+    if one.zero not in REFERENCES:
+        return [f"{printable(name)}: reference {printable(one.zero)}: {', '.join(REFERENCES)} are accepted"]
     if one.quantity == "lateral_displacement" and one.sensor not in sensors:
         return [f"{printable(name)}: a sensor of the model is needed: {', '.join(sensors)}"]
     return []

@@ -50,7 +50,7 @@ class NewCampaign(Result):
         """The columns with their roles, the runs, and the check."""
         columns = [
             {"column": name, "quantity": one.quantity, "sensor": one.sensor, "unit": one.unit or None, "sign": one.sign,
-             "same_as": one.same_as, "certainty": one.certainty, "why": one.why}
+             "reference": one.zero if one.quantity else None, "same_as": one.same_as, "certainty": one.certainty, "why": one.why}
             for name, one in self.columns.items()
         ]  # fmt: skip
         runs = [{"file": file, "role": role, "with": dict(self.parts[file])} for file, role in self.roles.items()]

@@ -11,7 +11,7 @@ import typer
 from ._terminal import OutputFile, finish, require_files
 
 if TYPE_CHECKING:
-    from comprope_system import BuildingResult, SwayResult
+    from comprope_system import AddResult, BuildingResult, ImproveResult, SwayResult
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, tower50_light, building200.")]
 SET = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value: sheave.mass=90. Repeatable.")]
@@ -46,6 +46,26 @@ class ResultFiles:
         """Print the summary of the result and write the files."""
         pages = (self.json, result.save_json), (self.report, result.save_html)
         finish(result, (self.out, result.to_csv), (self.plot, result.save_plot), *pages)
+
+
+@dataclass(frozen=True)
+class ModelFiles:
+    """Output files of a command whose result is a new model."""
+
+    out: NEW_MODEL = None
+    json: JSON = None
+    report: REPORT = None
+    fmu: FMU = None
+
+    def require(self) -> None:
+        """Raise `InputError` for a file that cannot be written, before a long computation."""
+        rope = self.fmu and self.fmu / ROPE_FMU
+        require_files(OutputFile(self.json), OutputFile(self.out), OutputFile(self.report, "page"), OutputFile(rope))
+
+    def finish(self, result: "AddResult | ImproveResult") -> None:
+        """Print the summary of the result and write the files."""
+        pages = (self.json, result.save_json), (self.report, result.save_html)
+        finish(result, (self.out, result.save_model), *pages, (self.fmu, result.save_fmus))
 
 
 def with_options(command: Callable[..., None]) -> Callable[..., None]:

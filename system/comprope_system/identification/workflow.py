@@ -1,14 +1,19 @@
 """The public functions `comprope_system.check`, `compare`, `diagnose`, `add` and `improve`."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
+from comprope.errors import InputError
+from comprope.rope.effects import REGISTRY, RopeModel
+from comprope.rope.model_file import with_changes
+
 from ..parallel.executors import processes, threads
 from ..parallel.progress import Progress, no_progress
+from ..presets.overrides import Changes, by_key
 from .comparison.compare import compare as compare_with_model
 from .comparison.data_quality import remarks
-from .data.campaign import Campaign, load_campaign
+from .data.campaign import Campaign, load_campaign, with_model
 from .data.campaign_check import check_campaign
 from .diagnosis.diagnose import diagnose as rank_effects
 from .diagnosis.experiment_design import is_inconclusive, rank_candidate_runs
@@ -20,6 +25,7 @@ from .model_updating.stepwise_selection import select_stepwise
 from .prediction.parameter_point import ParameterPoint
 from .preview.candidates import preview_fits, preview_model_effects
 from .progress import ProgressCallback
+from .reporting.run_curves import MOST_MODELS
 from .residuals.input_estimation import estimate_residual_force
 from .residuals.residual_correlation import residual_correlations
 from .residuals.residual_series import rest_ratio_of
@@ -30,6 +36,7 @@ from .result.updating import AddResult, ImproveResult
 from .settings import MODEL_UPDATING
 
 CampaignInput = str | Path | Campaign
+ModelFiles = Sequence[str | Path] | Mapping[str, str | Path]
 
 
 def check(campaign: str | Path) -> CheckResult:
@@ -44,23 +51,30 @@ def check(campaign: str | Path) -> CheckResult:
 def compare(
     campaign: CampaignInput,
     *,
+    models: ModelFiles = (),
     executor: Executor | str | None = None,
     previews: bool = False,
     progress: Progress = no_progress,
 ) -> ComparisonResult:
     """Simulate the model with the measured car motion, and compute its error for each run and channel.
 
-    `campaign` is a folder with campaign.toml, that file, or a `Campaign`. Runs on `executor` (of concurrent.futures, or
+    `campaign` is a folder with campaign.toml, that file, or a `Campaign`. `models` are files of further models to be compared
+    with the same runs, perhaps by a name for each. Runs on `executor` (of concurrent.futures, or
     "dask://HOST:PORT"), else on threads of this process. With `previews` the effects that the model has are replayed with other
     parameters too, so that the page of the result lets them be moved. Raises `InputError` with every problem of the campaign's
     files, `SimulationError` where a run cannot be simulated.
     """
     loaded = _loaded(campaign)
+    files = models if isinstance(models, Mapping) else {str(one): one for one in models}
+    if len(files) >= MOST_MODELS:
+        raise InputError(f"{len(files)} models: at most {MOST_MODELS - 1} are compared with that of the campaign")
+    others = {name: with_model(loaded, file) for name, file in files.items()}
     with threads(executor) as workers:
         progress("simulating the runs", 0, 0)
         found = compare_with_model(loaded, workers)
+        variants = {name: compare_with_model(one, workers) for name, one in others.items()}
         moved = preview_model_effects(loaded, workers, _stages(progress)) if previews else []
-    return ComparisonResult(found, tuple(remarks(loaded, found.predictions)), tuple(moved))
+    return ComparisonResult(found, tuple(remarks(loaded, found.predictions)), tuple(moved), variants)
 
 
 def diagnose(
@@ -103,6 +117,7 @@ def add(
     campaign: CampaignInput,
     effect: str,
     *,
+    start: Changes | None = None,
     executor: Executor | str | None = None,
     jobs: int | None = 1,
     progress: Progress = no_progress,
@@ -110,12 +125,15 @@ def add(
     """Add an effect to the model of a campaign, fitted on its fit runs together with the plant parameters.
 
     `effect` is a name such as "air_drag", an instrument's with its channel as "sensor_gain.cw_low"; an effect that the model has
-    already is refitted. Other arguments and errors as for `diagnose`.
+    already is refitted. The fit begins at the values that `start` gives by their keys in a model file, as
+    {"effects.air_drag.drag_coefficient": 1.0}, else at those that a linear screening proposes. Other arguments and errors as for
+    `diagnose`.
     """
     loaded = _loaded(campaign)
     hypotheses_named(effect, loaded, ())
+    stated = _stated(loaded, effect, start) if start else None
     with processes(jobs, executor) as workers:
-        return AddResult(add_effect(loaded, effect, workers, _stages(progress)))
+        return AddResult(add_effect(loaded, effect, workers, _stages(progress), stated))
 
 
 def improve(
@@ -133,6 +151,18 @@ def improve(
     loaded = _loaded(campaign)
     with processes(jobs, executor) as workers:
         return ImproveResult(select_stepwise(loaded, workers, _stages(progress), max_effects))
+
+
+def _stated(campaign: Campaign, effect: str, start: Changes) -> RopeModel:
+    """The model with the effect at its stated values; raises `InputError` for values that are none of it or that cannot be."""
+    values, source = by_key(start, "--start", "start")
+    name, _, column = effect.partition(".")
+    accepted = f"effects.{name}.{column}"
+    if name in REGISTRY and f"effects.{name}" in {key.rpartition(".")[0] for key in effect_values(campaign.model)}:
+        raise InputError(f"{source}: {effect} is in the model already, where its values are changed")
+    if wrong := [key for key in values if not (key == accepted if column else key.startswith(accepted))]:
+        raise InputError(f"{source}: {', '.join(wrong)}: values of {accepted}{'' if column else 'PARAMETER'} are accepted")
+    return with_changes(campaign.model, values, source)
 
 
 def _loaded(campaign: CampaignInput) -> Campaign:

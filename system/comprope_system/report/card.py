@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .heat_map import Target
+
 
 @dataclass(frozen=True)
 class Card:
     """`kind` stands above the title; `values` are (name, value, interval) and `facts` (name, text); `drawings` are SVG elements.
 
-    `command` is the next one to type, empty for none.
+    `evidence` are (text, panel to which it leads). `command` is the next one to type, empty for none.
     """
 
     kind: str
@@ -18,3 +20,4 @@ class Card:
     values: Sequence[tuple[str, str, str]]
     facts: Sequence[tuple[str, str]]
     command: str = ""
+    evidence: Sequence[tuple[str, Target]] = ()

@@ -4,7 +4,7 @@
   const HEIGHT = 168, RESIDUAL_HEIGHT = 112, AXIS = 68, PRINTED_WIDTH = 660; // in pixels
   const PAN = 0.2, ZOOM = 0.6; // share of the shown span that a step moves, or that remains
   const MARGIN = 0.15; // of a phase, shown before and after it
-  const DASHES = { before: [6, 3] };
+  const DASHES = { before: [6, 3] }, PINNED = [7, 2, 2, 2];
   const root = document.documentElement;
 
   // -- data ---------------------------------------------------------------------------------------
@@ -61,8 +61,8 @@
   }
 
   // -- one plot -----------------------------------------------------------------------------------
-  function series({ name, style }) {
-    return { label: name, stroke: () => styled(style), width: style === "measured" ? 1.6 : 1.3, dash: DASHES[style], points: { show: false } };
+  function series({ name, style, pinned }) {
+    return { label: name, stroke: () => styled(style), width: style === "measured" ? 1.6 : 1.3, dash: pinned ? PINNED : DASHES[style], points: { show: false } };
   }
 
   function axes(residual, axis) {
@@ -255,6 +255,7 @@
       this.panels = panels.map((one) => one.name);
       this.curves = curves.map((one) => one.name);
       this.off = { panels: new Set(), curves: new Set(), residual: false };
+      this.pinned = [];
       this.groups = groups.map((one) => new Group(place, one, this));
       this.setGroup = switches(controls, this.data.kind, groups, (k) => groups[k].shown, (k, on) => this.showGroup(k, on));
       this.setPanel = switches(controls, "channels", panels, () => true, (k, on) => this.toggle("panels", this.panels[k], on));
@@ -266,7 +267,13 @@
     showGroup(k, on) {
       const group = this.groups[k];
       group.box.hidden = !on;
-      if (on) { group.draw(); this.drawn?.(); this.apply(group); group.resize(); }
+      if (on) { this._drawn(group); this.drawn?.(); this.apply(group); group.resize(); }
+    }
+
+    _drawn(group) {
+      if (group.panels) return;
+      group.draw();
+      if (this.pinned.length) this._pinned(group);
     }
 
     toggle(what, name, on) {
@@ -285,6 +292,27 @@
           const on = !this.off.curves.has(one.name);
           if (plot.series[k + 1].show !== on) plot.setSeries(k + 1, { show: on });
         });
+      }
+    }
+
+    // Further curves of each panel, below the last one: `all` are { name, style, values: by group and panel }.
+    pin(all) {
+      this.pinned = all;
+      for (const group of this.groups) this._pinned(group);
+    }
+
+    _pinned(group) {
+      for (const { panel, plots: [plot] } of group.panels ?? []) {
+        for (let k = panel.curves.length - 1; k >= 0; k -= 1) if (panel.curves[k].pinned) { panel.curves.splice(k, 1); plot.delSeries(k + 1); }
+        for (const { name, style, values } of this.pinned) {
+          const value = values.get(group.data.name)?.[panel.name], at = panel.curves.length - 1;
+          if (!value) continue;
+          panel.curves.splice(at, 0, { name, style, value, pinned: true });
+          plot.addSeries(series(panel.curves[at]), at + 1);
+        }
+        if (panel.source.limits) panel.source.limits.found = null;
+        plot.setData([panel.place, ...panel.curves.map((one) => one.value)], false);
+        plot.redraw();
       }
     }
 
@@ -310,7 +338,7 @@
       if (!limits.found || limits.found.of !== limits.all) {
         const measured = panel.curves.find((one) => one.style === "measured").value, less = (one) => one.map((value, j) => (value === null ? null : measured[j] - value));
         const reach = (rows) => { const known = rows.flat().filter((one) => one !== null); return uPlot.rangeNum(Math.min(...known), Math.max(...known), 0.1, true); };
-        limits.found = { of: limits.all, curves: reach([measured, ...limits.all]), residuals: reach(limits.all.map(less)) };
+        limits.found = { of: limits.all, curves: reach([measured, ...limits.all, ...panel.curves.filter((one) => one.pinned).map((one) => one.value)]), residuals: reach(limits.all.map(less)) };
       }
       return residual ? limits.found.residuals : limits.found.curves;
     }

@@ -22,7 +22,7 @@ from .preview import Preview
 
 DPI = 130
 UPLOT = ("uplot/uPlot.min.css", "curves.css", "uplot/notice.js", "uplot/uPlot.iife.min.js", "curves.js")
-PREVIEW = ("preview.css", "preview.js")
+PREVIEW = ("preview.css", "pins.js", "preview.js")
 NUMBER = re.compile(r"[-−+]?[\d.][\d.e+/-]*( ± [\d.e+-]+)?( [^ \d]+)?")  # or two, with a standard error, with a unit
 MARKS = {"yes": "yes", "no": "no", "partly": "partly", "pass": "yes", "fail": "no"}
 

@@ -108,15 +108,21 @@
       this.curves = window.compropeCurves.get(this.data.curves);
       this.curves.drawn = () => this.draw();
       this.badge = figure.querySelector(".badge");
+      this.roles = ROLES;
+      this.past = []; // settings before each release, the latest last
+      this.back = figure.querySelector(".undo");
+      this.back.addEventListener("click", () => this.undo());
       this._choices(figure.querySelector(".effects"));
       this._errors(figure.querySelector(".errors"));
       this.choose(0);
+      this.settled = { effect: this.effect.name, at: [...this.at] };
+      this.pins = new window.compropePins(this, figure.querySelector(".pins"), figure.querySelector(".pin"));
     }
 
     _choices(box) {
       this.buttons = this.effects.map((one, k) => {
         const button = make(box, "button", { type: "button", "aria-pressed": false }, one.name.replaceAll("_", " "));
-        button.addEventListener("click", () => this.choose(k));
+        button.addEventListener("click", () => { this.choose(k); this.released(); });
         return button;
       });
       box.hidden = this.effects.length < 2;
@@ -138,6 +144,7 @@
       this.effect = this.effects[k];
       this.buttons.forEach((one, j) => one.setAttribute("aria-pressed", j === k));
       this.at = this.effect.sliders.map(({ nodes, centre }) => nodes[centre]);
+      this.simulated = null;
       const all = this.effect.sliders.flatMap((one, j) => one.nodes.map((value) => this.at.map((x, i) => (i === j ? value : x))));
       this.most = Object.fromEntries(Object.keys(this.bars).map((role) =>
         [role, BARS * Math.max(this.data.errors[role][0] ?? 0, ...all.map((at) => nrmse(this.effect.runs, role, weights(this.effect.sliders, at)) ?? 0))]));
@@ -175,6 +182,7 @@
     move(k, value) {
       const { nodes } = this.effect.sliders[k], edges = [nodes[0], nodes[nodes.length - 1]].sort((a, b) => a - b);
       this.at[k] = Math.min(Math.max(value, edges[0]), edges[1]);
+      this.simulated = null;
       this.begun ??= performance.now();
       this.waiting ??= requestAnimationFrame(() => { this.waiting = undefined; this.draw(); setTimeout(() => this.timed()); });
     }
@@ -186,19 +194,41 @@
       this.begun = undefined;
     }
 
-    released() {
+    // Moves the sliders to a setting, as of a pin.
+    go({ effect, at }, remember = true) {
+      this.choose(this.effects.findIndex((one) => one.name === effect));
+      this.at = [...at];
+      this.draw();
+      this.released(remember);
+    }
+
+    undo() { if (this.past.length) this.go(this.past.pop(), false); }
+
+    // A setting with its errors and the curves of each drawn run, by default the present one; without curves for an unknown effect.
+    setting(name = this.effect.name, at = this.at) {
+      const effect = this.effects.find((one) => one.name === name), present = effect === this.effect && at === this.at;
+      if (!effect || at.length !== effect.sliders.length) return { effect: name, at };
+      const by = weights(effect.sliders, at), simulated = present && this.simulated;
+      const label = `${name.replaceAll("_", " ")}: ${effect.sliders.map((one, k) => `${one.name} ${number(at[k])} ${one.unit}`.trim()).join(", ")}`;
+      const errors = Object.fromEntries(Object.keys(this.bars).map((role) => [role, simulated ? simulated.errors[role] : nrmse(effect.runs, role, by)]));
+      const values = new Map(this.curves.groups.map((group, r) => [group.data.name, Object.fromEntries(group.data.panels.map((panel, p) =>
+        [panel.name, simulated ? simulated.curves[group.data.name][panel.name] : curve(effect.drawn[r].panels[p], by)]))]));
+      return { effect: name, at: [...at], label, errors, values, simulated: Boolean(simulated) };
+    }
+
+    released(remember = true) {
+      const now = { effect: this.effect.name, at: [...this.at] };
+      if (remember && JSON.stringify(now) !== JSON.stringify(this.settled)) this.past.push(this.settled);
+      this.settled = now;
+      this.back.disabled = !this.past.length;
       this.figure.dispatchEvent(new CustomEvent("comprope:released", { bubbles: true, detail: { effect: this.effect.name, values: [...this.at] } }));
     }
 
     // What a simulation with these values shows, in place of the interpolation, unless the hand has moved on.
-    replayed({ effect, values }, { errors, curves }) {
+    replayed({ effect, values }, found) {
       if (effect !== this.effect.name || values.some((one, k) => one !== this.at[k])) return;
-      for (const [role, { value, fill }] of Object.entries(this.bars)) {
-        value.textContent = percent(errors[role]);
-        fill.style.width = `${(100 * (errors[role] ?? 0)) / this.most[role]}%`;
-      }
-      this.curves.groups.forEach((group, r) => group.data.panels.forEach((panel, p) => this.curves.replace(r, p, curves[group.data.name][panel.name])));
-      this._mark(true);
+      this.simulated = found;
+      this.draw();
     }
 
     _mark(simulated) {
@@ -207,7 +237,7 @@
     }
 
     draw() {
-      const by = weights(this.effect.sliders, this.at), { sliders } = this.effect;
+      const { sliders, runs, drawn } = this.effect, { simulated } = this, by = weights(sliders, this.at);
       this.inputs.forEach(({ input, told, off }, k) => {
         input.value = this.at[k];
         told.textContent = `${number(this.at[k])} ${sliders[k].unit}`;
@@ -215,16 +245,17 @@
         off.setAttribute("aria-pressed", this.at[k] === sliders[k].nodes[0]);
       });
       const atNode = sliders.every(({ nodes, centre }, k) => nodes.includes(this.at[k]) && (sliders.length === 1 || this.at[k] === nodes[centre]));
-      this._mark(atNode);
+      this._mark(simulated || atNode);
       for (const [role, { value, fill, given, noise }] of Object.entries(this.bars)) {
-        const error = nrmse(this.effect.runs, role, by), place = (share) => `${(100 * (share ?? 0)) / this.most[role]}%`;
+        const error = simulated ? simulated.errors[role] : nrmse(runs, role, by), place = (share) => `${(100 * (share ?? 0)) / this.most[role]}%`;
         value.textContent = percent(error);
         fill.style.width = place(error);
         given.style.left = place(this.data.errors[role][0]);
         noise.style.left = place(this.data.errors[role][1]);
       }
       this.curves.groups.forEach((group, r) => {
-        if (!group.box.hidden) group.data.panels.forEach((_, p) => this.curves.replace(r, p, curve(this.effect.drawn[r].panels[p], by)));
+        if (group.box.hidden) return;
+        group.data.panels.forEach((panel, p) => this.curves.replace(r, p, simulated ? simulated.curves[group.data.name][panel.name] : curve(drawn[r].panels[p], by)));
       });
     }
   }

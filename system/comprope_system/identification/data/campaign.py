@@ -76,6 +76,16 @@ def load_campaign(folder: str | Path) -> Campaign:
     )
 
 
+def with_model(campaign: Campaign, path: str | Path) -> Campaign:
+    """The campaign with the model of another file; raises `InputError` if that cannot be read or lacks a sensor."""
+    model = require_still_building(load(path), "a campaign")
+    known = [sensor.name for sensor in model.sensors]
+    missing = sorted({one.sensor for one in campaign.channels.values() if one.sensor} - set(known))
+    if missing:
+        raise InputError(f"{path}: lacks the sensor {', '.join(missing)} of the campaign; it has {', '.join(known) or 'none'}")
+    return replace(campaign, model=model, model_path=Path(path))
+
+
 def campaign_path(folder: str | Path) -> Path:
     """The campaign.toml of a folder, or the file itself."""
     path = Path(folder)

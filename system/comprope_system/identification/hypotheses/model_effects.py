@@ -69,6 +69,13 @@ def _at(one: Hypothesis, own: Mapping[str, float]) -> Hypothesis:
     return Hypothesis(one.effect, one.directions, fixed, one.polar, one.base)
 
 
+def stated_effect(effect: str, campaign: Campaign, stated: RopeModel) -> tuple[Hypothesis, list[float]]:
+    """A named effect with the parameters that it has in the model `stated`, and its coefficients there."""
+    values = {key: one for key, one in effect_values(stated).items() if key.startswith(f"effects.{effect.partition('.')[0]}.")}
+    found = _as_hypotheses(effect.partition(".")[0], values, campaign.channels)
+    return next((one, own) for one, own in found if effect_name(one) == effect)
+
+
 def coefficients_of(one: Hypothesis, values: Mapping[str, float]) -> list[float]:
     """Coefficients at which an effect has these parameters."""
     if one.polar:

@@ -17,7 +17,7 @@ from ..estimation.coarse_to_fine import fit_coarse_to_fine, fit_from_file, with_
 from ..estimation.effect_responses import effect_responses
 from ..estimation.gauss_newton import FitResult
 from ..estimation.identifiability import identifiability
-from ..estimation.initial_guess import best_initial_guess
+from ..estimation.initial_guess import best_initial_guess, chi_squares
 from ..estimation.linearisation import instrument_jacobian, point_at
 from ..estimation.mass_search import search_rope_mass
 from ..estimation.parameter_estimates import (
@@ -37,6 +37,7 @@ from ..hypotheses.model_effects import (
     hypotheses_named,
     shape_hypotheses,
     short_names,
+    stated_effect,
 )
 from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, collect_predictions, submit_replays
@@ -125,21 +126,41 @@ class UpdatedModel:
 
 
 def add_effect(
-    campaign: Campaign, effect: str, executor: Executor, report_progress: ProgressCallback = no_progress
+    campaign: Campaign,
+    effect: str,
+    executor: Executor,
+    report_progress: ProgressCallback = no_progress,
+    stated: RopeModel | None = None,
 ) -> UpdatedModel:
     """Fit the named effect together with plant parameters and present effects; one that is present is refitted.
 
-    Raises `InputError` for an unknown name.
+    The fit begins at the parameters that the effect has in the model `stated`, else at those that screening proposes. Raises
+    `InputError` for an unknown name.
     """
     hypotheses_named(effect, campaign, ())
     baseline = fit_baseline(campaign, executor, report_progress)
     if effect in components_by_effect(baseline.fitted.hypothesis, baseline.fitted.effect_coefficients):
         return updated_model(baseline, effect, baseline.fitted, executor, already_present=True)
+    if stated:
+        new, coefficients = stated_effect(effect, campaign, stated)
+        report_progress(f"fitting {effect}")
+        start = _better_plant(baseline, new, coefficients)
+        return updated_model(baseline, effect, fit_with_effect(baseline, new, start, baseline.fitted, search=False), executor)
     report_progress(f"linear screening of {effect}")
     frequencies = promising_frequencies(baseline.problem, baseline.fitted)
     new, start = _best_start(baseline, hypotheses_named(effect, campaign, frequencies))
     report_progress(f"fitting {effect}")
     return updated_model(baseline, effect_name(new), fit_with_effect(baseline, new, start, baseline.fitted), executor)
+
+
+def _better_plant(baseline: BaselineFit, new: Hypothesis, coefficients: list[float]) -> Floats:
+    """Coefficients (k,) of a new effect after those of the plant: of the model file or of the baseline, whichever fits better."""
+    known, count = baseline.fitted, len(PLANT_PARAMETERS)
+    whole = combine(new, *([known.hypothesis] if known.hypothesis else []))
+    plants = (np.zeros(count), known.coefficients[:count])
+    starts = [np.concatenate([plant, coefficients, known.coefficients[count:]]) for plant in plants]
+    rough = baseline.problem.coarsened(known.point, known.predictions)
+    return starts[int(np.argmin(chi_squares(rough, whole, starts, ParameterPoint())))]
 
 
 def _best_start(baseline: BaselineFit, tried: list[Hypothesis]) -> tuple[Hypothesis, Floats]:

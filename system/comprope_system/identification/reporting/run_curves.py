@@ -15,12 +15,13 @@ from .texts import formatting
 
 Floats = NDArray[np.float64]
 BAND = 2.0  # standard deviations: half width of the band of the noise
-STYLES = {1: (MODEL,), 2: (BEFORE, MODEL)}  # of models, by their number
+VARIANTS = ("2", "3", "6", "7", "4")  # styles of the models between the first and the last, which are told apart
+MOST_MODELS = 2 + len(VARIANTS)
 TINTED = ("acceleration", "deceleration")
 
 
 def run_curves(name: str, stages: Mapping[str, Comparison], first: str, caption: str = "") -> Curves:
-    """Measured channels of each run and one or two models of them, by name; of the runs, `first` is shown at once."""
+    """Measured channels of each run and models of them by name, the last being the result; the run `first` is shown at once."""
     files = [run.file for run in next(iter(stages.values())).runs]
     groups = [_group(stages, k, file == first) for k, file in enumerate(files)]
     return Curves(name, groups, caption=caption)
@@ -51,7 +52,8 @@ def _panel(comparison: Comparison, run: Run, models: Mapping[str, RunComparison]
     for each in found.values():
         measured[np.searchsorted(place, each.time)] = each.measured / each.channel.scale
     curves = [Curve("measured", MEASURED, measured)]
-    for (stage, each), style in zip(found.items(), STYLES[len(found)], strict=True):
+    styles = (*((BEFORE,) if len(found) > 1 else ()), *VARIANTS[: max(len(found) - 2, 0)], MODEL)
+    for (stage, each), style in zip(found.items(), styles, strict=True):
         curves.append(Curve(stage, style, _placed(place, each)))
     last = list(found.values())[-1]
     error = f"RMS error {formatting.number(last.rmse / last.channel.scale)} {last.channel.unit}"

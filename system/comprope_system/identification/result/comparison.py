@@ -1,6 +1,7 @@
 """The result of `comprope_system.compare`."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +22,13 @@ from ..reporting.texts.formatting import listed, paragraphs, text_table, wrapped
 class ComparisonResult(Result):
     """The model against the measurements of a campaign: `comparison` with all series, `remarks` on the quality of the data.
 
-    `previews` are those of the effects that the model has, if they were asked for.
+    `previews` are those of the effects that the model has, if they were asked for; `variants` are further models by their names.
     """
 
     comparison: Comparison
     remarks: tuple[str, ...]
     previews: tuple[EffectPreview, ...] = ()
+    variants: Mapping[str, Comparison] = field(default_factory=dict)
 
     @property
     def campaign(self) -> Campaign:
@@ -63,6 +65,11 @@ class ComparisonResult(Result):
         """Run, channel and phase of the trip with the largest error; None where noise explains all."""
         return largest_error(self.comparison)
 
+    @property
+    def models(self) -> dict[str, Comparison]:
+        """The campaign's model, called "model", and the variants."""
+        return {"model": self.comparison, **self.variants}
+
     def headline(self) -> str:
         """NRMSE on fit and validation runs."""
         return sentences.comparison_sentences(self.comparison)[0]
@@ -73,13 +80,21 @@ class ComparisonResult(Result):
             wrapped(sentences.largest_error_sentence(self.comparison)),
             wrapped(*sentences.comparison_sentences(self.comparison)),
             text_table(tables.error_table(self.comparison)),
+            text_table(tables.stage_table(self.models)) if self.variants else [],
             listed("Data quality:", self.remarks),
         )
 
     def to_json(self) -> dict[str, Any]:
-        """Errors of all runs and channels in the unit of the channel; `largest_error` is null if noise explains all."""
+        """Errors of all runs and channels in the unit of the channel; `largest_error` is null if noise explains all.
+
+        `variants` have the NRMSE of each further model.
+        """
         worst = self.largest_error
-        found = {"remarks": list(self.remarks), "largest_error": plain(worst.to_json()) if worst else None}
+        found: dict[str, Any] = {"remarks": list(self.remarks), "largest_error": plain(worst.to_json()) if worst else None}
+        found["variants"] = [
+            plain({"model": name, "fit_nrmse": one.fit_nrmse, "validate_nrmse": one.validate_nrmse})
+            for name, one in self.variants.items()
+        ]
         return self.comparison.to_json() | found
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -98,4 +113,4 @@ class ComparisonResult(Result):
         """Write a page with a table of errors and the curves of every run, completely or not at all."""
         from ..reporting.pages.comparison import save_comparison
 
-        save_comparison(Path(path), self.comparison, self.remarks, self.previews)
+        save_comparison(Path(path), self.comparison, self.remarks, self.previews, self.variants)

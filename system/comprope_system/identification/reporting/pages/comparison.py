@@ -1,6 +1,6 @@
 """The page of `comprope compare`, and the sections that other pages share with it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ....report.page import Block, Section, save_page
@@ -21,13 +21,19 @@ CURVES = "curves"  # name of the figure with the runs
 
 
 def save_comparison(
-    path: Path, comparison: Comparison, remarks: Sequence[str], previews: Sequence[EffectPreview] = ()
+    path: Path,
+    comparison: Comparison,
+    remarks: Sequence[str],
+    previews: Sequence[EffectPreview] = (),
+    variants: Mapping[str, Comparison] | None = None,
 ) -> None:
-    """Write the page of a comparison, completely or not at all."""
+    """Write the page of a comparison, with further models by their names, completely or not at all."""
+    models = {"model": comparison, **(variants or {})}
     sections = [
+        *([Section("models", "Models", [tables.stage_table(models)])] if variants else []),
         Section("summary", "Errors by run, channel and phase", [heat_maps.error_map(comparison, CURVES), DEFINITIONS]),
         data_quality_section(remarks),
-        Section("runs", "Measured and simulated", [run_curves(CURVES, {"model": comparison}, worst_run(comparison))]),
+        Section("runs", "Measured and simulated", [run_curves(CURVES, models, worst_run(comparison))]),
         *preview_section(previews, comparison, worst_run(comparison), fitted=False),
         _position_section(comparison),
         order_section(comparison, "Residual by order of the sheave's rotation", "the model as given"),

@@ -10,9 +10,11 @@ from ...diagnosis.held_out_validation import ValidatedDiagnosis, effects_of, ful
 from ...estimation.parameter_estimates import Estimate, effect_estimates, standard_error_scale
 from ...settings import VERDICT
 from ..texts.detection_limits import undetectable
-from ..texts.effect_descriptions import drawing, meaning, parameter_label, parameter_unit
-from ..texts.estimate_sentences import estimate_sentences
-from ..texts.formatting import in_handy_unit, listed_words, percent, probability
+from ..texts.effect_descriptions import drawing, meaning
+from ..texts.estimate_sentences import estimate_in_words, estimate_sentences
+from ..texts.formatting import listed_words, percent, probability
+from .comparison import CURVES
+from .evidence import evidence
 
 KINDS = {
     "known_effect": "Missing effect", "instrument": "Faulty instrument", "adequate": "Adequate model",
@@ -39,7 +41,8 @@ def verdict_card(validated: ValidatedDiagnosis, proposals: Sequence[ProposedRun]
     if found.verdict and (limits := estimate_sentences(found.ranking[0].fitted, _estimates(found))):
         facts.insert(2, ("limits of the estimates", " ".join(limits)))
     drawings, texts = [drawing(one) for one in names], [meaning(one) for one in names]
-    return Card(KINDS[found.kind], title[0].upper() + title[1:], texts, drawings, values, facts, next_command(validated))
+    shows = evidence(validated.refitted, validated.best, CURVES) if found.verdict else []
+    return Card(KINDS[found.kind], title[0].upper() + title[1:], texts, drawings, values, facts, next_command(validated), shows)
 
 
 def next_command(validated: ValidatedDiagnosis) -> str:
@@ -71,22 +74,14 @@ def _readable(name: str) -> str:
 
 def _values(found: Diagnosis) -> list[tuple[str, str, str]]:
     """Parameters of the verdict's effects in handy units with their 95 % intervals; a phase says nothing by itself."""
-    return [_value(found, key, one) for key, one in _estimates(found).items() if key.split(".")[2] != "phase"]
+    channels = found.campaign.channels
+    return [estimate_in_words(channels, key, one) for key, one in _estimates(found).items() if key.split(".")[2] != "phase"]
 
 
 def _estimates(found: Diagnosis) -> dict[str, Estimate]:
     """Estimates of the parameters of the verdict's effects, by model key."""
     fitted = found.ranking[0].fitted
     return effect_estimates(fitted, standard_error_scale(fitted, len(found.problem.data)))
-
-
-def _value(found: Diagnosis, key: str, one: Estimate) -> tuple[str, str, str]:
-    _, effect, name = key.split(".", 2)
-    unit = parameter_unit(found.campaign.channels, effect, name)
-    value, low, high = in_handy_unit(unit, one.value, one.low, one.high)
-    label = parameter_label(effect, name)
-    interval = f"95 %: {low} to {high}" if one.standard_error > 0.0 else "not fitted"
-    return label, value, interval
 
 
 def _error(validated: ValidatedDiagnosis) -> str:

@@ -1,11 +1,13 @@
-"""Limits of parameter estimates in sentences."""
+"""Parameter estimates in words, and their limits in sentences."""
 
 from collections.abc import Mapping
 
+from ...data.runs import Channel
 from ...estimation.gauss_newton import FitResult
 from ...estimation.identifiability import identifiability
 from ...estimation.parameter_estimates import Estimate
-from .formatting import listed_words
+from .effect_descriptions import parameter_label, parameter_unit
+from .formatting import in_handy_unit, listed_words
 
 
 def estimate_sentences(fitted: FitResult, estimates: Mapping[str, Estimate]) -> list[str]:
@@ -32,3 +34,10 @@ def _names(keys: tuple[str, ...]) -> str:
 def _name(key: str) -> str:
     """The parameter by its key in the model file, without the table of effects."""
     return key.removeprefix("effects.")
+
+
+def estimate_in_words(channels: Mapping[str, Channel], key: str, one: Estimate) -> tuple[str, str, str]:
+    """Name of an effect's parameter by its model key, its value in a handy unit, and its 95 % interval."""
+    _, effect, name = key.split(".", 2)
+    value, low, high = in_handy_unit(parameter_unit(channels, effect, name), one.value, one.low, one.high)
+    return parameter_label(effect, name), value, f"95 %: {low} to {high}" if one.standard_error > 0.0 else "not fitted"
