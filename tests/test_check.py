@@ -105,6 +105,14 @@ REMARKS = [
 ]
 
 
+@pytest.mark.parametrize("option", ["--json", "--report"])
+def test_a_hyphen_is_no_name_of_an_output_file(campaign, capsys, monkeypatch, option):
+    monkeypatch.chdir(campaign)
+    with pytest.raises(SystemExit, match="2"):
+        main(["check", str(campaign), option, "-"])
+    assert len(capsys.readouterr().err.splitlines()) == 1 and not (campaign / "-").exists()
+
+
 @pytest.mark.parametrize(("columns", "told"), REMARKS, ids=[told for _, told in REMARKS])
 def test_a_fault_of_a_channel_is_told_and_its_samples_are_not_used(campaign, columns, told):
     result = spoil(campaign, **columns)

@@ -1,12 +1,16 @@
 """Files as loggers write them: each is read as the plain one, refused, or read with a remark; none is silently wrong."""
 
+import gzip
 import os
 import sys
+import zipfile
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pandas as pd
 import pytest
+import scipy.io
 
 from comprope.errors import InputError
 from comprope_system.cli import main
@@ -18,7 +22,7 @@ from comprope_system.measurements.runs.run_table import read_run_table
 from comprope_system.measurements.units import is_unit, split_unit, unit_named
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
-from raw_log_variants import FURTHER, LOGGERS, READING, blind_and_broken, stated_wrongly
+from raw_log_variants import FURTHER, LOGGERS, READING, Variant, blind_and_broken, stated_wrongly
 
 HEIGHT = 50.0  # m
 LASERS = ("cw_low", "cw_mid", "car_low")
@@ -69,7 +73,18 @@ RIGHT = {"semicolon, decimal point", "tab, decimal comma", "quoted decimal comma
          "unit after a comma", "unit after an underscore", "years of two digits over midnight", "American dates over midnight",
          "the end of summer time, with zones", "durations in days", "a time beside each channel",
          "a slower clock beside one channel",
-         "Excel with a table of limits beside", "Excel with date and time of day"}  # fmt: skip
+         "Excel with a table of limits beside", "Excel with date and time of day",
+         "gzip", "ZIP", "every row twice", "some rows twice", "newest row first", "one value a row", "one channel a row",
+         "durations of ISO 8601", "times as literals of IEC 61131", "descriptions and units below the names",
+         "times in ticks of Windows", "times in ticks of .NET", "Rockwell, Millitm", "Siemens data log", "Campbell TOA5",
+         "TwinCAT Scope, times in ms beside each channel", "InfluxDB", "Grafana, a series after the other",
+         "historian with tags and qualities", "long table with units", "pandas melt", "PicoScope", "Keysight BenchLink, UTF-16",
+         "Yokogawa DL850", "Hioki", "times named by their channels", "LabVIEW, decimal commas, units in the header",
+         "LabVIEW, no X column", "a unit row in German", "percent signs as comments", "dSPACE structure",
+         "a pair of times and values for each channel", "TDMS with a channel of times", "TDMS with groups of other rates",
+         "MDF 3", "MDF 4 with scaled whole numbers", "MDF 4 with groups of other rates", "Excel with a hidden sheet",
+         "Excel, dates since 1904", "HDF5 with times as attributes", "MATLAB structures for each channel",
+         "MATLAB columns of names and a matrix", "a time beside each channel, named as nothing"}  # fmt: skip
 
 
 def read(folder: Path, variant):
@@ -154,6 +169,60 @@ def test_clocks_that_cannot_be_related_are_refused(tmp_path):
     campaign = CampaignFile(name="x", model="x", channels=CHANNELS, runs=(spec,))
     with pytest.raises(InputError, match=r"time of day, those of the car seconds .* offsets"):
         read_run_table(tmp_path, spec, campaign, HEIGHT, tmp_path)
+
+
+@pytest.mark.parametrize("ending", ["h5", "mat"])
+def test_each_group_of_a_file_has_the_clock_that_stands_in_it(tmp_path, ending):
+    groups = {"drive": (["car_position"], 0.0), "lasers": ([one.column for one in CHANNELS], 2.0)}
+    arrays = {g: {**{n: PLAIN[n].to_numpy() for n in names}, "time": PLAIN["time"].to_numpy() + late}
+              for g, (names, late) in groups.items()}  # fmt: skip
+    if ending == "mat":
+        scipy.io.savemat(tmp_path / "run.mat", arrays)
+    else:
+        with h5py.File(tmp_path / "run.h5", "w") as file:
+            for group, own in arrays.items():
+                for name, values in own.items():
+                    file[f"{group}/{name}"] = values
+    table = read(tmp_path, Variant("groups", f"run.{ending}", lambda path: None))
+    assert table.car.time[0] == 0.0 and table.time[0] == 2.0 and len(table.time) == len(PLAIN)
+
+
+@pytest.mark.parametrize("second", [100, 1e4, 1e7])
+def test_ticks_of_an_unknown_clock_are_not_taken_for_the_nearest_unit(tmp_path, second):
+    PLAIN.assign(time=(second * PLAIN["time"]).round().astype(int)).to_csv(tmp_path / "run.csv", index=False)
+    with pytest.raises(InputError, match=r"write time_unit under .file., or, if time counts samples or ticks, their rate"):
+        read(tmp_path, Variant("ticks", "run.csv", lambda path: None))
+    stated = f'[file]\ntime_unit = "sample"\nrate = {second}\n'
+    assert is_plain(read(tmp_path, Variant("ticks", "run.csv", lambda path: None, stated)), Variant("", "", lambda path: None))
+
+
+def test_archives_that_cannot_be_read_are_refused_in_one_sentence(tmp_path):
+    text = PLAIN.to_csv(index=False).encode()
+    with zipfile.ZipFile(tmp_path / "two.zip", "w") as archive:
+        archive.writestr("up.csv", text)
+        archive.writestr("down.csv", text)
+    (tmp_path / "torn.csv.gz").write_bytes(gzip.compress(text)[:-2000])
+    (tmp_path / "nested.gz").write_bytes(gzip.compress(gzip.compress(text)))
+    told = {"two.zip": 'archive of 2 files: up.csv, down.csv; write sheet = "up.csv"', "torn.csv.gz": "damaged gzip archive",
+            "nested.gz": "archive in an archive"}  # fmt: skip
+    for name, sentence in told.items():
+        with pytest.raises(InputError, match=sentence):
+            read_raw_table(tmp_path / name, FileFormat())
+    assert len(read_raw_table(tmp_path / "two.zip", FileFormat(sheet="down.csv")).columns) == PLAIN.shape[1]
+
+
+def test_an_archive_that_grows_without_end_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("comprope_system.measurements.files.archive.LARGEST_UNPACKED", 1_000_000)
+    (tmp_path / "bomb.csv.gz").write_bytes(gzip.compress(b"0" * 2_000_000))
+    with pytest.raises(InputError, match="gzip archive of more than 1 MB; unpack it"):
+        read_raw_table(tmp_path / "bomb.csv.gz", FileFormat())
+
+
+def test_rows_of_one_time_with_values_that_contradict_each_other_are_refused(tmp_path):
+    twice = pd.concat([PLAIN, PLAIN.iloc[400:410].assign(cw_low=1.0)]).sort_values("time", kind="stable")
+    twice.to_csv(tmp_path / "run.csv", index=False)
+    with pytest.raises(InputError, match="10 rows are at the same time"):
+        read(tmp_path, Variant("twice", "run.csv", lambda path: None))
 
 
 def test_files_outside_pipes_and_devices_are_refused(tmp_path):

@@ -5,12 +5,15 @@ from pathlib import Path
 
 import pandas as pd
 
+from .automation import automation, databases
+from .benches import benches
 from .binaries import binaries
 from .dialects import columns, encodings, labview, lines_around, separators
 from .further_binaries import further_binaries
 from .further_texts import number_notations, shapes
 from .further_times import other_clocks, written_clocks
 from .further_values import blind_and_broken, stated_wrongly
+from .instruments import instruments
 from .loggers import controllers, data_loggers, oscilloscopes, programs
 from .named_columns import decorated_names, workbooks, written_times
 from .times import numeric_times, time_faults, time_stamps
@@ -23,7 +26,10 @@ READING: tuple[Group, ...] = (
     separators, lines_around, columns, labview, encodings, numeric_times, time_stamps, time_faults, units, missing, binaries,
 )  # fmt: skip
 FURTHER: tuple[Group, ...] = (number_notations, shapes, written_clocks, other_clocks, further_binaries)
-LOGGERS: tuple[Group, ...] = (data_loggers, oscilloscopes, controllers, programs, decorated_names, written_times, workbooks)
+LOGGERS: tuple[Group, ...] = (
+    data_loggers, oscilloscopes, controllers, programs, decorated_names, written_times, workbooks, automation, databases,
+    instruments, benches,
+)  # fmt: skip
 __all__ = ["FURTHER", "LOGGERS", "READING", "Variant", "blind_and_broken", "stated_wrongly", "unusual_trips", "variants"]
 
 

@@ -66,6 +66,8 @@ def require_writable(path: str | Path, kind: str | None = None) -> None:
     A file of a `kind` must have a matching extension. Called before long computations, so that no result is lost.
     """
     target = Path(path)
+    if target.parts[:1] == ("-",):
+        raise InputError(f"{path}: nothing is written to standard output; give the name of a file")
     if kind and target.suffix.lower() not in ENDINGS[kind]:
         raise InputError(f"{path}: a name that ends in {', '.join(ENDINGS[kind])} is accepted for a {kind}")
     try:

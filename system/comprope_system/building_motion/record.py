@@ -13,7 +13,8 @@ from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 from comprope.rope.parameters import Building
 
-from ..measurements.columns.column_names import clock_columns, find_column
+from ..measurements.columns.clock_columns import clock_columns
+from ..measurements.columns.column_names import find_column
 from ..measurements.columns.readings import numbers_of, written_unit
 from ..measurements.columns.time_axis import time_axis
 from ..measurements.files import RawColumn, RawTable, read_raw_table

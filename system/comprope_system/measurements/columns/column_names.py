@@ -2,34 +2,18 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import replace
-from datetime import datetime, time
-
-import numpy as np
-import pandas as pd
 
 from comprope.errors import InputError
 
-from ..files.cells.time_stamps import is_time_stamp
 from ..files.raw_table import RawColumn, RawTable, printable
 from ..units import split_unit
 
-LOOKED_AT = 200  # samples that tell whether a column counts time
-RARELY = 0.05  # share of steps that go back, or on, up to which a column is a clock, or none
-EVEN = 0.1  # of the mean step: standard deviation of the steps of an even clock
-FEWEST = 5  # numbers that tell
 TIME_NAMES = frozenset(
     [
         "time", "t", "timestamp", "time_stamp", "datetime", "date_time", "date/time", "date&time", "zeit", "zeitstempel",
         "uhrzeit",
         "temps", "tempo", "x_value", "xvalue", "elapsed", "elapsed_time", "relative_time", "rel_time", "time_rel", "timer",
         "clock", "utc", "sec", "secs", "seconds", "ms", "milliseconds",
-    ]
-)
-SAMPLE_NUMBERS = frozenset(
-    [
-        "sample", "samples", "index", "idx", "no", "nr", "n", "#", "scan", "sample_no", "sample_nr", "sample_number",
-        "samplenumber", "point", "record",
     ]
 )
 CAR_NAMES = {
@@ -56,7 +40,7 @@ def find_column(table: RawTable, name: str) -> RawColumn:
     Raises `InputError`, without the file's name, which lists the columns.
     """
     exact = [one for one in table.columns if one.name == name.strip()]
-    same = exact or [one for one in table.columns if plain_name(one.name) == plain_name(name)]
+    same = exact or named_one_of(table, [plain_name(name)])
     if len(same) == 1 and not (exact and _is_repeated(table, name)):
         return same[0]
     names = ", ".join(one.name for one in table.columns)
@@ -70,8 +54,9 @@ def _is_repeated(table: RawTable, name: str) -> bool:
 
 
 def named_one_of(table: RawTable, names: Sequence[str]) -> list[RawColumn]:
-    """The columns whose plain names are among `names`."""
-    return [one for one in table.columns if plain_name(one.name) in names]
+    """The columns whose plain names are among `names`, or, where there are none, those with such an alias."""
+    found = [one for one in table.columns if plain_name(one.name) in names]
+    return found or [one for one in table.columns if any(plain_name(alias) in names for alias in one.aliases)]
 
 
 def is_time_name(name: str) -> bool:
@@ -79,57 +64,6 @@ def is_time_name(name: str) -> bool:
     plain = plain_name(re.sub(r"\s*\(\d+\)$", "", name).rpartition("/")[2] or name)
     first = plain.split("_")[0]
     return plain in TIME_NAMES or first in ("time", "zeit", "timestamp", "t") or plain.endswith(("_time", "_zeit", "_timestamp"))
-
-
-def clock_columns(table: RawTable, stated: str | None) -> list[RawColumn]:
-    """The columns of times: the stated one, else those named so, else one of sample numbers, else none."""
-    if stated:
-        return [find_column(table, stated)]
-    table = replace(table, columns=tuple(one for one in table.columns if _distinct(one) > 0))
-    named = [one for one in table.columns if is_time_name(one.name)]
-    counting = [one for one in named if _counts(one)]  # "response_time" and "cycle_time" are no clocks
-    found = counting or named or named_one_of(table, sorted(SAMPLE_NUMBERS))[:1]
-    return found or [one for one in table.columns if _is_stamped(one)][:1]
-
-
-def unnamed_clocks(table: RawTable) -> list[RawColumn]:
-    """Columns beyond the first that count evenly, as a clock does, but are not named as times or sample numbers."""
-    return [
-        one
-        for one in table.columns[1:]
-        if one.clock is None and not is_time_name(one.name) and plain_name(one.name) not in SAMPLE_NUMBERS and _is_even(one)
-    ]
-
-
-def _is_even(column: RawColumn) -> bool:
-    """Whether the first numbers of a column increase by nearly equal steps."""
-    some = column.values.head(LOOKED_AT).astype(str).str.replace(",", ".", regex=False)
-    steps = np.diff(pd.to_numeric(some, errors="coerce").dropna().to_numpy())
-    return len(steps) > FEWEST and bool(steps.min() > 0.0 and np.std(steps) < EVEN * np.mean(steps))
-
-
-def _counts(column: RawColumn) -> bool:
-    """Whether a column increases nearly everywhere, as far as it holds numbers: a clock may be set back once, or repeat times."""
-    some = column.values.iloc[:: max(len(column.values) // LOOKED_AT, 1)]
-    numbers = pd.to_numeric(some.astype(str).str.replace(",", "."), errors="coerce").dropna().to_numpy()
-    if len(numbers) < FEWEST:
-        return _distinct(column) > 1
-    steps = np.diff(numbers)
-    return bool(np.mean(steps < 0.0) < RARELY and np.mean(steps > 0.0) > RARELY)
-
-
-def _is_stamped(column: RawColumn) -> bool:
-    """Whether a column holds dates or times of day, by its type or its first cell."""
-    if pd.api.types.is_datetime64_any_dtype(column.values):
-        return True
-    first = next((one for one in column.values.head(LOOKED_AT) if not pd.isna(one) and one != ""), None)
-    return isinstance(first, datetime | time) or (isinstance(first, str) and is_time_stamp(first))
-
-
-def _distinct(column: RawColumn) -> int:
-    """Number of different values that are not empty, among some of the whole column."""
-    some = column.values.iloc[:: max(len(column.values) // LOOKED_AT, 1)]
-    return int(some[some.notna() & (some.astype(str) != "")].nunique())
 
 
 def car_column(table: RawTable, names: dict[str, str] = CAR_NAMES) -> tuple[RawColumn, str] | None:

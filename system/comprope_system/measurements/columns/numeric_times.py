@@ -21,6 +21,11 @@ SAMPLE_NAMES = re.compile(
 )
 EPOCH = (1e9, 5e9)  # s since 1970 of the years 2001 to 2128; LabVIEW's seconds since 1904 lie there too
 DAY_NUMBERS = ((2e4, 8e4), (7e5, 8e5), (2.4e6, 2.5e6))  # days of Excel and OLE, of MATLAB and Python, Julian
+TICK = 1e-7  # s, of the clocks of Windows and .NET
+TICKS = {  # by clock: the first and last number of ticks from 1980 to 2200, and those of 1970
+    "Windows": (1.196e17, 1.890e17, 116_444_736_000_000_000),
+    ".NET": (6.245e17, 6.939e17, 621_355_968_000_000_000),
+}
 SHORTEST = 0.5  # a record of a trip is longer [s]; times that span less are days or hours
 COUNTED = 20  # times that increase by 1 and are rather sample numbers than seconds
 MOSTLY = 0.5  # share of the steps of sample numbers that are 1; the others are samples that were lost
@@ -51,6 +56,8 @@ def numeric_times(column: RawColumn, table: RawTable, stated: FileFormat) -> Tim
         return _scaled(numbers, known, unit)
     if unit is None and (seconds := _of_day(numbers, known)) is not None:
         return _scaled(seconds, seconds[np.isfinite(seconds)], "s", "clock", "time read as digits of the time of day, HHMMSS")
+    if unit is None and (ticks := _ticks(numbers, known)) is not None:
+        return ticks
     if (by_size := _by_size(known)) is not None:
         return _scaled(numbers, known, *by_size)
     return replace(_scaled(numbers, known, "s"), sure=False)
@@ -89,6 +96,16 @@ def _scaled(numbers: NDArray, known: NDArray, unit: str, kind: str = "relative",
     if kind == "date" and numbers.dtype.kind == "f":
         seconds = np.round(seconds, EPOCH_DIGITS)
     return TimeAxis(seconds, float(known[0]) * TIMES[unit], kind, unit, remark=remark)
+
+
+def _ticks(numbers: NDArray, known: NDArray) -> TimeAxis | None:
+    """Times of a clock that counts ticks of 100 ns since 1601 or the year 1; None for all others."""
+    for clock, (low, high, zero) in TICKS.items():
+        if low < float(known[0]) < high:
+            seconds = np.asarray(numbers - known[0], float) * TICK
+            origin = float(known[0] - zero) * TICK
+            return TimeAxis(seconds, origin, "date", remark=f"time read as ticks of 100 ns of the clock of {clock}")
+    return None
 
 
 def _by_size(known: NDArray) -> tuple[str, str, str] | None:

@@ -9,7 +9,12 @@ from ..files.cells.time_stamps import is_time_stamp
 from ..files.raw_table import RawColumn, RawTable
 from .column_names import is_time_name, plain_name
 
-MILLISECONDS = frozenset(["ms", "msec", "msecs", "millisecond", "milliseconds", "milli", "millisekunde", "millisekunden"])
+MILLISECONDS = frozenset(
+    [
+        "ms", "msec", "msecs", "millisec", "millisecs", "millisecond", "milliseconds", "milli", "millitm", "millisekunde",
+        "millisekunden",
+    ]
+)  # fmt: skip
 WITHIN = 1000.0
 
 

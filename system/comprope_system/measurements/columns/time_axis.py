@@ -8,16 +8,21 @@ from comprope.errors import InputError
 from ..files.cells.time_stamps import is_time_stamp, nanoseconds
 from ..files.file_format import FileFormat
 from ..files.raw_table import RawColumn, RawTable, printable
-from .column_names import unnamed_clocks
+from .clock_columns import unnamed_clocks
 from .numeric_times import numeric_times
 from .times import TimeAxis
 
 
 def time_axis(column: RawColumn, table: RawTable, stated: FileFormat) -> TimeAxis:
     """The times of a column; raises `InputError`, without the file's name, where they are not times or do not increase."""
-    found = _stamps(column, table) if _is_stamped(column.values) else numeric_times(column, table, stated)
+    found = times_of(column, table, stated)
     _require_increasing(column, table, found)
     return found
+
+
+def times_of(column: RawColumn, table: RawTable, stated: FileFormat) -> TimeAxis:
+    """The times of a column in whatever order they stand."""
+    return _stamps(column, table) if _is_stamped(column.values) else numeric_times(column, table, stated)
 
 
 def first_column_times(column: RawColumn, table: RawTable, stated: FileFormat) -> TimeAxis:

@@ -16,7 +16,9 @@ class FileFormat(Component):
     )
     decimal: Literal[".", ","] | None = Field(default=None, description="decimal sign of a text file")
     header: int | None = Field(default=None, ge=1, description="line of a text file or sheet that holds the column names, from 1")
-    sheet: str | None = Field(default=None, description="sheet of a workbook, or group of an HDF5, MAT, TDMS or MDF file")
+    sheet: str | None = Field(
+        default=None, description="sheet of a workbook, group of an HDF5, MAT, TDMS or MDF file, or file in a ZIP archive"
+    )
     time: str | None = Field(default=None, description="the column of time, if it is not recognised by its name")
     time_unit: str | None = Field(
         default=None, description="unit of numeric times: s, ms, us, ns, min, h, d, or sample with a rate"

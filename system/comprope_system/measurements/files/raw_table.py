@@ -12,13 +12,17 @@ class RawColumn:
     """A column as the file has it: `values` (n,) are numbers, or texts where some cell is no number.
 
     `unit` is the unit that a units row or the file's own description of the column states. `clock` (n,) are the times of the
-    samples [s] where the file keeps them beside the column (TDMS, MDF), otherwise None.
+    samples [s] where the file keeps them beside the column (TDMS, MDF), otherwise None. `group` is the path of the group that
+    holds the column in a file of groups (HDF5, MAT, TDMS). `aliases` are further names that the file has for it: its path, or the
+    cells of other lines above the numbers.
     """
 
     name: str
     values: pd.Series
     unit: str | None = None
     clock: pd.Series | None = None
+    group: str = ""
+    aliases: tuple[str, ...] = ()
 
     @property
     def is_numeric(self) -> bool:

@@ -3,10 +3,12 @@
 import importlib
 import zipfile
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from comprope import atomic_files
 from comprope.errors import InputError
 
+from .archive import ARCHIVES, unpacked
 from .file_format import FileFormat
 from .raw_table import RawTable, printable
 from .text.text_file import read_text_table
@@ -22,10 +24,17 @@ FORMATS = {  # module in `formats`, and the package it needs
     "tdms": ("tdms_file", "nptdms"),
     "workbook": ("workbook_file", "openpyxl"),
 }
+MARKS: dict[str, tuple[bytes, ...]] = {
+    "hdf5": (HDF5_MARK,),
+    "mat": (b"MATLAB 5.0 MAT-file",),
+    "mdf": (b"MDF     ", b"UnFinMF "),
+    "parquet": (b"PAR1",),
+    "tdms": (b"TDSm", b"TDSh"),
+    "archive": ARCHIVES,
+}
 REFUSED = (
     (b"\xd0\xcf\x11\xe0", "an old Excel file (.xls)", "save it as .xlsx or CSV"),
     (b"%PDF", "a PDF document", "export the table as CSV"),
-    (b"\x1f\x8b", "a gzip archive", "unpack it"),
     (b"7z\xbc\xaf", "a 7-Zip archive", "unpack it"),
     (b"\x89PNG", "a picture", "a table of numbers is accepted"),
 )
@@ -61,6 +70,8 @@ def require_regular_file(path: Path, within: Path | None) -> None:
 
 def _read(path: Path, data: bytes, stated: FileFormat) -> RawTable:
     kind = format_of(data, path)
+    if kind == "archive":
+        return _read_unpacked(path, data, stated)
     if kind == "text":
         return read_text_table(data, stated)
     module, package = FORMATS[kind]
@@ -77,23 +88,30 @@ def _read(path: Path, data: bytes, stated: FileFormat) -> RawTable:
     return found
 
 
+def _read_unpacked(path: Path, data: bytes, stated: FileFormat) -> RawTable:
+    """The table of the file in an archive, which is read as any other file; an archive in it is not."""
+    content = unpacked(path, data, stated.sheet)
+    with TemporaryDirectory() as folder:
+        inner = Path(folder) / "unpacked"
+        inner.write_bytes(content)
+        if format_of(content, inner) == "archive":
+            raise InputError("is an archive in an archive; unpack it")
+        own = stated.model_copy(update={"sheet": None}) if data.startswith(b"PK") else stated
+        return _read(inner, content, own)
+
+
 def format_of(data: bytes, path: Path) -> str:
-    """The format of a file's content, a key of FORMATS or "text"; raises `InputError` for formats that are not read."""
+    """The format of a file's content: a key of FORMATS, "archive" or "text"; `InputError` for formats that are not read."""
     for mark, kind, advice in REFUSED:
         if data.startswith(mark):
             raise InputError(f"is {kind}; {advice}")
     if not data.strip():
         raise InputError("not a CSV table: the file is empty")
-    if data.startswith(HDF5_MARK) or data[512:520] == HDF5_MARK:
+    for kind, marks in MARKS.items():
+        if data.startswith(marks):
+            return kind
+    if data[512:520] == HDF5_MARK:  # behind the header of a MATLAB file
         return "hdf5"
-    if data.startswith(b"MATLAB 5.0 MAT-file"):
-        return "mat"
-    if data.startswith((b"MDF     ", b"UnFinMF ")):
-        return "mdf"
-    if data.startswith(b"PAR1"):
-        return "parquet"
-    if data.startswith((b"TDSm", b"TDSh")):
-        return "tdms"
     if data.startswith(b"PK") and zipfile.is_zipfile(path):
         return _zip_format(path)
     return "text"
@@ -104,4 +122,4 @@ def _zip_format(path: Path) -> str:
         names = archive.namelist()
     if any(name.startswith("xl/") for name in names):
         return "workbook"
-    raise InputError("is a ZIP archive, or a document that is not read; unpack it, or save the table as .xlsx or CSV")
+    return "archive"

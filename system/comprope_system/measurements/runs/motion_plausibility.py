@@ -1,14 +1,15 @@
 """Whether a position, speed or acceleration can be that of a car: its place in the shaft, its speed, its resolution."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import trapezoid
+from scipy.integrate import cumulative_trapezoid
 
 from comprope.errors import InputError
 
-from ..columns.car_units import SHORTEST, SPEEDS, fastest, fits_shaft, middle_speed, time_unit
+from ..columns.car_units import ACCELERATIONS, SHORTEST, SPEEDS, Course, course, fastest, fits_shaft, time_unit
 from ..motion.signal.noise import resolution
 from ..units import TIMES
 from .run_files import RunFiles, Samples
@@ -21,36 +22,39 @@ COARSE = 5e-3  # m; steps of a position from which on they are worth a remark
 
 def checked_time(files: RunFiles, samples: Samples, value: Floats, quantity: str, height: float) -> Floats:
     """The times in the unit with which the motion is a car's, where no file states that unit."""
-    found = middle_speed(samples.time, value) if quantity == "position" else _speed_of(samples, value, quantity, height)
+    found = _course(samples.time, value, quantity)
     step = float(np.median(np.diff(samples.time)))
     if found is None:
         if step >= SLOWEST_SAMPLING:
             raise InputError(f"time: samples are {step:g} s apart: in which unit is it? Write time_unit under [file]")
         return samples.time
-    speed, travel = found
-    if SPEEDS[0] <= speed <= fastest(travel):
+    if found.fits(height):
         return samples.time
-    unit = time_unit(speed, travel)
+    would = f"move at {found.speed:.3g} m/s" if found.measured == "position" else f"travel {found.travel:.4g} m"
+    unit = time_unit(found, height)
     if unit is not None:
-        files.assume_time_unit(unit, f"in seconds the car would move at {speed:.3g} m/s")
+        files.assume_time_unit(unit, f"in seconds the car would {would}")
         return samples.time * TIMES[unit]
-    if speed < SPEEDS[0] and step < SLOWEST_SAMPLING:
+    if found.measured == "position" and found.speed < SPEEDS[0] and step < SLOWEST_SAMPLING:
         return samples.time
+    accepted = f"{SPEEDS[0]:g} to {fastest(found.travel):.3g} m/s is accepted over {found.travel:.3g} m"
+    if found.measured == "speed":
+        accepted = f"up to {height:g} m, the height of the shaft, is accepted"
     raise InputError(
-        f"the car would move at {speed:.3g} m/s; {SPEEDS[0]:g} to {fastest(travel):.3g} m/s is accepted over {travel:.3g} m: "
-        "check the unit of the car, and "
-        "write time_unit under [file], or, if time counts samples, their rate"
+        f"the car would {would}; {accepted}: check the unit of the car, and write time_unit under [file], or, if time counts "
+        "samples or ticks, their rate"
     )
 
 
-def _speed_of(samples: Samples, value: Floats, quantity: str, height: float) -> tuple[float, float] | None:
-    """Speed and travel for `time_unit` from a measured speed, whose travel is too long by as much as the unit of time."""
+def _course(time: Floats, value: Floats, quantity: str) -> Course | None:
+    """The first travel of the car from its position or its speed; None of an acceleration."""
+    if quantity == "position":
+        return course(time, value)
     if quantity != "speed":
         return None
     known = np.isfinite(value)
-    travel = float(trapezoid(np.abs(value[known]), samples.time[known]))
-    top = float(np.percentile(np.abs(value[known]), 99.0))
-    return (top, travel) if travel <= height + 1.0 else (top * height / travel, height)
+    found = course(time[known], cumulative_trapezoid(value[known], time[known], initial=0.0))
+    return found and replace(found, measured="speed")
 
 
 def require_in_shaft(value: Floats, name: str, height: float, key: str, start: float | None) -> None:
@@ -73,10 +77,14 @@ def require_in_shaft(value: Floats, name: str, height: float, key: str, start: f
 def implausible(time: Floats, value: Floats, name: str, sure: bool) -> Iterator[str]:
     """Sentences about a motion whose size, resolution or, where the unit of time is stated, speed is hardly a car's."""
     low, high = np.nanpercentile(value, (1.0, 99.0))
+    found = course(time, value)
     if high - low < SHORTEST:
         yield f"{name}: moves by {1e3 * (high - low):.3g} mm in all: check its unit"
-    elif sure and (found := middle_speed(time, value)) is not None and not SPEEDS[0] <= found[0] <= fastest(found[1]):
-        usual = f"{SPEEDS[0]:g} to {fastest(found[1]):.3g} m/s is usual over {found[1]:.3g} m"
-        yield f"{name}: moves at {found[0]:.3g} m/s; {usual}: check the units of time and position"
+    elif sure and found is not None and not SPEEDS[0] <= found.speed <= fastest(found.travel):
+        usual = f"{SPEEDS[0]:g} to {fastest(found.travel):.3g} m/s is usual over {found.travel:.3g} m"
+        yield f"{name}: moves at {found.speed:.3g} m/s; {usual}: check the units of time and position"
+    elif found is not None and found.acceleration < ACCELERATIONS[0]:
+        takes = found.speed / found.acceleration
+        yield f"{name}: takes some {takes:.2g} s to reach {found.speed:.3g} m/s and to stop: check the units of time and position"
     if (step := resolution(value[np.isfinite(value)])) >= COARSE:
         yield f"{name}: changes in steps of {1e3 * step:.2g} mm, by which the motion may be uncertain"

@@ -9,8 +9,11 @@ from numpy.typing import NDArray
 from comprope.errors import InputError
 
 from ..campaign_file import Channel, Reading, RunSpec
-from ..columns.column_names import clock_columns, find_column, unnamed_clocks
+from ..columns.clock_columns import clock_columns, clock_of, unnamed_clocks
+from ..columns.column_names import find_column
+from ..columns.long_table import widened
 from ..columns.readings import Rules, numbers_of, unit_problem
+from ..columns.row_order import in_order
 from ..columns.signal_faults import CHANNEL_RULES
 from ..columns.split_clock import with_joined_clock
 from ..columns.time_axis import first_column_times, time_axis
@@ -64,7 +67,8 @@ class RunFiles:
     def table(self, file: str) -> RawTable:
         """The raw table of a file; raises `InputError`, which names it."""
         if file not in self._tables:
-            found = with_joined_clock(read_raw_table(self.folder / file, self.stated, self.within))
+            raw = read_raw_table(self.folder / file, self.stated, self.within)
+            found = in_order(widened(with_joined_clock(raw)), self.stated)
             self._tables[file] = found
             self._remark(file, *found.remarks)
             for one in unnamed_clocks(found):
@@ -121,9 +125,7 @@ class RunFiles:
         clocks = [] if name == "" else clock_columns(table, name)
         left = [one for one in clocks if len(one.values) == len(column.values)]
         if left:
-            names = [one.name for one in table.columns]
-            before = [one for one in left if names.index(one.name) < names.index(column.name)]
-            found = self._time_axis(before[-1] if before else left[0], table)
+            found = self._time_axis(clock_of(column, left, table), table)
         elif self.stated.rate or (table.rate and name != ""):
             found = row_times(table, len(column.values), self.stated.rate or float(table.rate or 0.0))
         else:

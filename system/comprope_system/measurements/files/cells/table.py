@@ -35,7 +35,11 @@ def table_at(rows: Sequence[Cells], found: TableLines, decimal: str, block: pd.D
     names = uncommented(rows[found.header])[: found.width] if found.header is not None else []
     names = unique_names([*names, *[""] * (found.width - len(names))])
     units = _units(rows[found.units], found.width) if found.units is not None else [None] * found.width
-    columns = tuple(RawColumn(name, block[k], unit) for k, (name, unit) in enumerate(zip(names, units, strict=True)))
+    others = [uncommented(rows[k]) for k in found.others]
+    columns = tuple(
+        RawColumn(name, block[k], unit, aliases=tuple(row[k] for row in others if k < len(row) and row[k]))
+        for k, (name, unit) in enumerate(zip(names, units, strict=True))
+    )
     return RawTable(columns, stated_rate(rows[: found.first]), np.array(kept) + 1, decimal, tuple(remarks))
 
 

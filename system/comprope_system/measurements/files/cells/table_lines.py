@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from comprope.errors import InputError
 
@@ -11,6 +12,8 @@ from .dialect import LEAST_VALUES, Cells, is_value, sampled_rows
 from .numerals import is_infinite, is_missing, is_number
 
 COMMENTS = ("#", "%", "//", "!", "*")
+FOLLOWERS, FOLLOWING = 20, 0.93  # rows after the first one of a table that are looked at, and share of them that are rows too
+SEARCHED = 100  # rows with numbers within which a table begins: settings above it may hold numbers too
 NUMERIC_SHARE = 0.5  # of a column's cells from which on it is a column of numbers
 
 
@@ -18,7 +21,8 @@ NUMERIC_SHARE = 0.5  # of a column's cells from which on it is a column of numbe
 class TableLines:
     """Where a table stands: indices from 0 of the lines of names, units, and first and last numbers; `width` cells in each row.
 
-    `numeric` (width,) are the columns that hold numbers or times, in contrast to texts.
+    `numeric` (width,) are the columns that hold numbers or times, in contrast to texts. `others` are further lines of
+    names, such as descriptions.
     """
 
     header: int | None
@@ -27,6 +31,7 @@ class TableLines:
     last: int
     width: int
     numeric: tuple[bool, ...]
+    others: tuple[int, ...] = ()
 
 
 def locate(rows: Sequence[Cells], decimal: str, header: int | None) -> TableLines:
@@ -40,7 +45,7 @@ def locate(rows: Sequence[Cells], decimal: str, header: int | None) -> TableLine
     below = [k for k in sampled if k >= (header or 0) and is_candidate(k)]
     numeric = _numeric_columns([rows[k] for k in below], width, decimal)
     good = (k for k in range(header or 0, len(rows)) if is_candidate(k) and fits(rows[k], numeric, decimal))
-    first = next(good, None) if below else None
+    first = _first_row(rows, [*islice(good, SEARCHED)], decimal) if below else None
     if first is None:
         raise InputError("no table of numbers: no row in which the columns hold a time and numbers")
     # A footer has a word where rows have the time; a row with a bad cell elsewhere is a row.
@@ -50,14 +55,31 @@ def locate(rows: Sequence[Cells], decimal: str, header: int | None) -> TableLine
         first -= 1
     start = header if header is not None else 0
     above = [k for k in range(start, first) if rows[k]]
-    units = next((k for k in reversed(above) if _is_units_row(trimmed(rows[k], width))), None)
+    # Of several lines of units, those of time for instance, it is the one whose cells differ most.
+    united = [k for k in reversed(above) if _is_units_row(trimmed(rows[k], width))]
+    units = max(united, key=lambda k: len(set(rows[k])), default=None)
     if header is not None:
         units = next((k for k in range(header - 1) if _is_units_row(trimmed(rows[k], width))), units)
         return TableLines(header - 1, units, first, last, width, numeric)
     names = [k for k in above if k != units and _is_header(uncommented(rows[k]), width, decimal)]
     # Of several lines, kinds and settings below the names, it is the one whose cells differ most.
     name = max(reversed(names), key=lambda k: len(set(rows[k]) - {""}), default=None)
-    return TableLines(name, units, first, last, width, numeric)
+    return TableLines(name, units, first, last, width, numeric, tuple(k for k in names if k != name))
+
+
+def _first_row(rows: Sequence[Cells], good: Sequence[int], decimal: str) -> int | None:
+    """The first of the good rows that begins a table; None if there is none.
+
+    Settings above a table may hold numbers in its columns too: the table begins below a line without numbers, and nearly all rows
+    after its first are good.
+    """
+    known = set(good)
+    for k in good[: SEARCHED - FOLLOWERS]:
+        followers = [j for j in range(k, min(k + 2 * FOLLOWERS, len(rows))) if any(rows[j])][:FOLLOWERS]
+        below = k == 0 or _values(rows[k - 1], decimal) < LEAST_VALUES
+        if below and sum(j in known for j in followers) >= FOLLOWING * len(followers):
+            return k
+    return good[0] if good else None
 
 
 def _is_row(row: Cells, key: int, width: int, decimal: str) -> bool:

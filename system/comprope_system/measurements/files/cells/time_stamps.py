@@ -9,6 +9,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from .durations import duration
+
 STAMP = re.compile(
     r"(?:(?P<days>\d{1,5}) days?,? \+?)?"
     r"(?:(?P<date>\d{1,4}[-./]\d{1,2}[-./]\d{1,4}|\d{8}|\d{1,2}[-. ][A-Za-z]{3}[-. ]\d{2,4})[T ,;_-]\s*)?"
@@ -27,8 +29,8 @@ EPOCH = date(1970, 1, 1).toordinal()
 
 
 def is_time_stamp(text: str) -> bool:
-    """Whether a text is a time of day or a date with one."""
-    return _match(text) is not None
+    """Whether a text is a time of day, a date with one, or a duration."""
+    return _match(text) is not None or duration(text) is not None
 
 
 def _match(text: str) -> re.Match[str] | None:
@@ -64,11 +66,13 @@ def nanoseconds(values: pd.Series) -> tuple[NDArray[np.int64], list[int], bool]:
 
 
 def _of_cell(value: Any) -> int | None:
-    """Nanoseconds of a cell that is no text; None if it is no time."""
+    """Nanoseconds of a cell that is no stamp; None if it is no time."""
     if isinstance(value, datetime):
         return DAY * (value.toordinal() - EPOCH) + _clock(value.time())
     if isinstance(value, time):
         return _clock(value)
+    if isinstance(value, str):
+        return duration(value)
     if isinstance(value, timedelta):
         return 1000 * (value // timedelta(microseconds=1))
     return None

@@ -1,6 +1,7 @@
 """Tables from named arrays, as MATLAB, HDF5 and similar files hold them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,47 +12,120 @@ from comprope.errors import InputError
 from ..raw_table import RawColumn, RawTable, printable, unique_names
 
 RATE_NAMES = ("fs", "rate", "samplerate", "samplingrate", "samplefrequency", "samplingfrequency")
-INTERVAL_NAMES = ("dt", "ts", "interval", "sampleinterval", "samplinginterval", "deltat")
+INTERVAL_NAMES = ("dt", "ts", "interval", "sampleinterval", "samplinginterval", "deltat", "wfincrement")
+VALUE_NAMES = ("value", "values", "data", "signal", "samples", "y")  # say nothing beside the name of their group
 
 
-def table_of_arrays(arrays: Mapping[str, Any], units: Mapping[str, str], group: str | None) -> RawTable:
-    """The columns of arrays by path, such as "Run 1/time": vectors (n,), or matrices (n, k) as columns "name 1" to "name k".
+@dataclass(frozen=True)
+class Array:
+    """Values of any shape, the unit that the file states, and the interval of the samples [s] if the array states its own."""
 
-    With a `group`, only of paths under it. Numbers that are single state the sample rate, if they are named so. Raises
-    `InputError`, without a file's name, if there are no vectors of numbers or texts, or no such group.
+    values: Any
+    unit: str | None = None
+    interval: float | None = None
+
+
+@dataclass(frozen=True)
+class _Vector:
+    """A vector of an array: the array's path, the name of its column, and the group that its clock belongs to."""
+
+    path: str
+    name: str
+    values: pd.Series
+    group: str
+
+
+def require_arrays(arrays: Mapping[str, Array], objects: Sequence[str]) -> None:
+    """Raise `InputError` for a file that holds nothing but `objects` of MATLAB, which only MATLAB reads."""
+    if objects and not arrays:
+        raise InputError(
+            f"{printable(objects[0])} is an object of MATLAB, such as a table or timetable: write it with writetimetable or "
+            "writetable, or save its vectors"
+        )
+
+
+def table_of_arrays(arrays: Mapping[str, Array], group: str | None) -> RawTable:
+    """The columns of arrays by path, such as "Run 1/time".
+
+    Vectors (n,) are columns, and so are the columns of matrices (n, k), with the names that a vector of k texts gives them or as
+    "name 1" to "name k"; a matrix (n, 2) whose first column increases is a clock and a signal. With a `group`, only arrays under
+    it. Numbers that are single state the sample rate of their group, if they are named so. Raises `InputError`, without a file's
+    name, if there are no vectors of numbers or texts, or no such group.
     """
     paths = [path for path in arrays if group is None or path == group or path.startswith(f"{group.strip('/')}/")]
     if not paths:
         groups = sorted({path.rpartition("/")[0] for path in arrays} - {""})
         raise InputError(f'file.sheet = "{group}": a group of the file is accepted: {", ".join(groups) or "it has none"}')
-    found: list[tuple[str, str, pd.Series]] = []
-    rate = None
+    titles = [_texts(arrays[path].values) for path in paths]
+    rates: dict[str, float] = {}
+    found: list[_Vector] = []
     for path in paths:
-        values = np.asarray(arrays[path])
-        name = path.rpartition("/")[2]
+        values = np.asarray(arrays[path].values)
+        above, _, name = path.rpartition("/")
         if values.size == 1:
-            rate = _rate(name, values) or rate
+            rates |= {above: rate} if (rate := rate_named(name, values)) else {}
         else:
-            found += [(path, f"{name}{suffix}", own) for suffix, own in _vectors(values)]
+            found += _vectors(path, values, titles)
     if not found:
         raise InputError("no vectors of numbers in the file")
-    bare = [name for _, name, _ in found]
-    names = unique_names([name if bare.count(name) == 1 else path for path, name, _ in found])
-    columns = tuple(RawColumn(name, own, units.get(path)) for name, (path, _, own) in zip(names, found, strict=True))
-    return RawTable(columns, rate)
+    bare = [one.name for one in found]
+    names = unique_names([one.name if bare.count(one.name) == 1 else one.path for one in found])
+    several = len(set(rates.values())) > 1
+    columns = []
+    for name, one in zip(names, found, strict=True):
+        array = arrays[one.path]
+        interval = array.interval or (1.0 / rate if several and (rate := _rate_of(one.group, rates)) else None)
+        clock = pd.Series(np.arange(len(one.values)) * interval) if interval else None
+        columns.append(RawColumn(name, one.values, array.unit, clock, one.group, (one.path,)))
+    return RawTable(tuple(columns), next(iter(rates.values())) if rates and not several else None)
 
 
-def _vectors(values: np.ndarray) -> list[tuple[str, pd.Series]]:
-    """The vectors of an array with the suffixes of their names; none of arrays that are no table."""
+def rate_named(name: str, value: np.ndarray) -> float | None:
+    """Samples per second [Hz] of a single number that is named as a rate or an interval; None for others."""
+    bare = printable(name).lower().replace("_", "").replace(" ", "")
+    if value.dtype.kind not in "fiu" or not float(value.reshape(())) > 0.0:
+        return None
+    number = float(value.reshape(()))
+    return number if bare in RATE_NAMES else 1.0 / number if bare in INTERVAL_NAMES else None
+
+
+def _rate_of(group: str, rates: Mapping[str, float]) -> float | None:
+    """The rate that a group states, or the nearest around it."""
+    while group not in rates and group:
+        group = group.rpartition("/")[0]
+    return rates.get(group)
+
+
+def _vectors(path: str, values: np.ndarray, titles: Sequence[list[str]]) -> Iterator[_Vector]:
+    """The vectors of an array; none of arrays that are no table."""
+    above, _, leaf = path.rpartition("/")
+    name = above.rpartition("/")[2] if above and leaf.lower() in VALUE_NAMES else leaf
     if values.dtype.kind not in "fiubOSUMm":
-        return []
+        return
     squeezed = np.squeeze(values)
     if squeezed.ndim == 1:
-        return [("", _series(squeezed))]
+        yield _Vector(path, name, _series(squeezed), above)
     if squeezed.ndim != 2 or values.dtype.kind not in "fiu":
-        return []
+        return
     own = squeezed if squeezed.shape[0] >= squeezed.shape[1] else squeezed.T
-    return [(f" {k + 1}", _series(own[:, k])) for k in range(own.shape[1])]
+    count = own.shape[1]
+    named = [one for one in titles if len(one) == count]
+    columns = [f"{name} {k + 1}" for k in range(count)]
+    if named and all(one == named[0] for one in named):
+        columns = named[0]
+    elif count == 2 and len(own) > 2 and np.all(np.diff(own[:, 0]) > 0):
+        columns, above = [f"time of {name}", name], path
+    for k, column in enumerate(columns):
+        yield _Vector(path, column, _series(own[:, k]), above)
+
+
+def _texts(values: Any) -> list[str]:
+    """The texts of a vector of texts; none of other arrays."""
+    array = np.squeeze(np.asarray(values))
+    if array.ndim != 1 or array.dtype.kind not in "SUO":
+        return []
+    texts = [one.decode("utf-8", "replace") if isinstance(one, bytes) else one for one in array]
+    return [one.strip() for one in texts] if all(isinstance(one, str) for one in texts) else []
 
 
 def _series(values: np.ndarray) -> pd.Series:
@@ -59,12 +133,3 @@ def _series(values: np.ndarray) -> pd.Series:
         return pd.Series([one.decode("utf-8", "replace") if isinstance(one, bytes) else one for one in values]).astype(str)
     native = values.astype(values.dtype.newbyteorder("="))
     return pd.Series(native.astype(float) if native.dtype.kind == "f" else native)
-
-
-def _rate(name: str, value: np.ndarray) -> float | None:
-    """Samples per second [Hz] of a single number that is named as a rate or an interval."""
-    bare = printable(name).lower().replace("_", "").replace(" ", "")
-    if value.dtype.kind not in "fiu" or not float(value.reshape(())) > 0.0:
-        return None
-    number = float(value.reshape(()))
-    return number if bare in RATE_NAMES else 1.0 / number if bare in INTERVAL_NAMES else None

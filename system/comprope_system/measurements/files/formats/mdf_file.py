@@ -28,11 +28,16 @@ def read(path: Path, stated: FileFormat) -> RawTable:
     bare = [signal.name for signal, _ in signals]
     names = unique_names([one.name if bare.count(one.name) == 1 else f"{k}/{one.name}" for one, k in signals])
     columns = [
-        RawColumn(name, _values(signal.samples), signal.unit or None, pd.Series(np.asarray(signal.timestamps, float)))
+        RawColumn(name, _values(signal), signal.unit or None, pd.Series(np.asarray(signal.timestamps, float)))
         for name, (signal, _) in zip(names, signals, strict=True)
     ]
     return RawTable(tuple(columns))
 
 
-def _values(samples: np.ndarray) -> pd.Series:
-    return pd.Series(samples.astype(str)) if samples.dtype.kind in "SO" else pd.Series(samples)
+def _values(signal: Any) -> pd.Series:
+    """The samples of a channel, NaN where the logger marked them as invalid."""
+    samples = signal.samples
+    if samples.dtype.kind in "SO":
+        return pd.Series(samples.astype(str))
+    invalid = signal.invalidation_bits
+    return pd.Series(samples if invalid is None or not invalid.any() else np.where(invalid, np.nan, samples))

@@ -31,5 +31,6 @@ def read(path: Path, stated: FileFormat) -> RawTable:
             late = float((own - min(starts)) / pd.Timedelta(seconds=1).to_timedelta64()) if own is not None else 0.0
             clock = pd.Series(channel.time_track() + late)
         unit = channel.properties.get("unit_string") or channel.properties.get("NI_UnitDescription")
-        columns.append(RawColumn(name, pd.Series(channel[:]), str(unit).strip() or None if unit else None, clock))
+        written = str(unit).strip() or None if unit else None
+        columns.append(RawColumn(name, pd.Series(channel[:]), written, clock, channel.group_name))
     return RawTable(tuple(columns))

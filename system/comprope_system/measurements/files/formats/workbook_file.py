@@ -23,7 +23,7 @@ def read(path: Path, stated: FileFormat) -> RawTable:
             raise InputError(f'file.sheet = "{stated.sheet}": a sheet of the workbook is accepted: {", ".join(names)}')
         found, problems = {}, []
         for sheet in book.worksheets:
-            if stated.sheet in (None, sheet.title):
+            if stated.sheet == sheet.title or (stated.sheet is None and sheet.sheet_state == "visible"):
                 try:
                     rows = [[_text(cell) for cell in row] for row in sheet.iter_rows(values_only=True)]
                     found[sheet.title] = table_of(rows, stated.decimal or find_decimal(rows), stated)
