@@ -305,3 +305,37 @@ def test_columns_that_nearly_hold_numbers_and_swapped_ones_are_left_out_with_a_r
     assert len(unread) == 1 and "up.csv: Laser Kabine [mm]: left out, because cells such as" in unread[0]
     assert result.columns["Scheibe Weg (mm)"].quantity is None
     assert "it follows the car's speed as no displacement does" in result.columns["Scheibe Weg (mm)"].why
+
+
+def test_a_car_that_counts_downward_is_written_so_and_the_sheave_is_not_turned(tmp_path):
+    table, height = raw(3.7, 10.0, 1), MODEL.shaft.height
+    car = 1e-3 * table["Kabinenposition [mm]"]
+    low = next(one.height for one in MODEL.sensors if one.name == "cw_low")
+    table["Laser GG unten [mm]"] = table["Laser GG unten [mm]"].where(height - car > low)
+    table["Kabinenposition [mm]"] = 1e3 * (height - car)
+    table["Drehzahl [U/min]"] *= -1.0
+    table.to_csv(tmp_path / "up.csv", index=False)
+    result = comprope_system.new(tmp_path / "campaign", [tmp_path / "up.csv"], model=MODEL)
+    written = read_campaign_file(tmp_path / "campaign" / "campaign.toml")
+    assert (written.car.sign, written.car.zero) == (-1, 1e3 * height)  # in the unit of the column
+    assert result.columns["Drehzahl [U/min]"].sign == 1
+    assert any("counts downward" in one for one in result.remarks)
+    assert result.check.runs[0].run.trip.position(END) == pytest.approx(13.7, abs=0.01)
+
+
+def test_the_kind_of_motion_is_written_where_it_is_no_position(tmp_path, files):
+    table = pd.read_csv(files[0])
+    speed = 1e-3 * np.gradient(table["Kabinenposition [mm]"].rolling(9, min_periods=1).mean(), SAMPLING)
+    table.drop(columns="Kabinenposition [mm]").assign(car_speed=speed).to_csv(files[0], index=False)
+    result = comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL)
+    assert read_campaign_file(result.path).car.quantity == "speed"
+    assert "gives no height: write car_start" in str(result.check.problems)
+    text = result.path.read_text("utf-8").replace('quantity = "speed"\n', "")  # as somebody writes it who states the column only
+    result.path.write_text(text, "utf-8")
+    assert "gives no height: write car_start" in str(comprope_system.check(result.path).problems)
+
+
+def test_a_column_that_cannot_be_read_is_refused_for_its_own_problem(tmp_path, files):
+    pd.read_csv(files[0]).rename(columns={"Zeit [ms]": "Zeit"}).assign(Zeit=1e4 * TIME).to_csv(files[0], index=False)
+    with pytest.raises(InputError, match="write time_unit under"):
+        comprope_system.new(tmp_path / "campaign", files[:1], model=MODEL)

@@ -10,7 +10,9 @@ from comprope.rope.effects import RopeModel
 from ..identification.workflow import check
 from ..measurements.files.raw_table import printable
 from ..measurements.files.reader import require_regular_file
+from ..measurements.units import MOTIONS
 from .campaign_text import campaign_text
+from .car_direction import counts_downward, with_sheave_turned
 from .column_matching import own_name, roles
 from .column_roles import BY_SIZE, Role, reach
 from .corrections import Corrections, corrected, require_runs
@@ -22,6 +24,7 @@ from .survey.run_grouping import grouped
 from .survey.surveyed_runs import SurveyedRun, survey
 
 HELD_OUT = 2  # runs from which on one is held out
+DOWNWARD = "written as sign = -1 with the height of the shaft as zero under [car]"
 SHEAVE_OF_RUN = 'where it was another, write set = { "sheave.mass" = ..., "sheave.inertia" = ... } in its run'
 SHORT_REST = 1.0  # s at rest before a trip that references need
 
@@ -55,6 +58,8 @@ def new(
     groups = grouped(folder, [[copied(one, folder) for one in together] for together in stated])
     surveyed = survey(folder, groups, loaded, known.car)
     found = _roles(surveyed, loaded, ask, known)
+    if downward := known.car.column is None and counts_downward(surveyed, found, loaded):
+        found = with_sheave_turned(found)
     used = {column: role for column, role in found.items() if role.quantity}
     channels = [(column, role, noise(surveyed, column, role)) for column, role in used.items()]
     if not channels:
@@ -63,10 +68,13 @@ def new(
     held_out = _held_out(surveyed)
     by_file = {run.file: "validate" if run.file == held_out else "fit" for run in surveyed} | dict(known.roles)
     runs = [run_entry(run, by_file[run.file], found, _answers(run, loaded, ask, known.changes)) for run in surveyed]
-    tables = _tables(surveyed) | {"plant": {key: {"relative": one} for key, one in chosen.tolerances.items()}}
+    tables = _tables(surveyed, loaded.shaft.height / MOTIONS["position"][surveyed[0].car.unit] if downward else None)
+    tables["plant"] = {key: {"relative": one} for key, one in chosen.tolerances.items()}
     with atomic_write(path) as temporary:
         temporary.write_text(campaign_text(folder.resolve().name, chosen.file, tables, channels, runs), "utf-8")
     remarks += [*_remarks(surveyed), *_assumed_units(used, surveyed)]
+    if downward:
+        remarks.append(f"{surveyed[0].car.column}: counts downward: then the lasers see the rope where they should; {DOWNWARD}")
     if not ask and not known.changes:
         remarks.append(f"the sheave of the model, {loaded.sheave.mass:g} kg, is taken in every run; {SHEAVE_OF_RUN}")
     parts = {run.file: run.group.others for run in surveyed}
@@ -128,17 +136,23 @@ def _require_new(path: Path, files: Sequence[Path]) -> None:
         raise InputError(f"{', '.join(twice)}: named twice; each file is accepted once, with a name of its own")
 
 
-def _tables(runs: Sequence[SurveyedRun]) -> dict[str, dict[str, object]]:
-    """What `[file]` states because the files do not, and `[car]` or `[counterweight]` if they have one column."""
+def _tables(runs: Sequence[SurveyedRun], top: float | None) -> dict[str, dict[str, object]]:
+    """What `[file]` states because the files do not, and `[car]` or `[counterweight]` if they have one column.
+
+    `top` is the reading at the bottom landing of a car that counts downward.
+    """
     units = {run.time_unit for run in runs}
     file: dict[str, object] = {}
     if len(units) == 1 and (unit := units.pop()):
         file["time_unit"] = unit
-    ends = {(run.motion.end, run.motion.column) for run in runs}
+    ends = {(run.motion.end, run.motion.column, run.car.quantity) for run in runs}
     found: dict[str, dict[str, object]] = {"file": file}
     if len(ends) == 1:
-        end, column = ends.pop()
+        end, column, quantity = ends.pop()
         found[end] = {"column": column}
+        found[end] |= {} if quantity == "position" else {"quantity": quantity}
+    if top is not None:
+        found.setdefault("car", {}).update({"sign": -1, "zero": top})
     return found
 
 

@@ -47,21 +47,20 @@ def survey_motion(files: RunFiles, height: float, stated: MotionColumn) -> Surve
     named = [one for one in (car_named, counterweight_named) if one is not None]
     if stated.column is None or (car_named is None and counterweight_named and counterweight_named[0].name == stated.column):
         stated = MotionColumn() if named else MotionColumn(column=_by_values(files, height))
-    starts = (None, 0.0, height)
-    for start in starts:
+    first: InputError | None = None  # what the positions as they are lack; a guessed start has problems of its own
+    for start in (None, 0.0, height):
         try:
             car = read_motion(files, stated, "car", height, start)
             counterweight = read_motion(files, stated, "counterweight", height, start) if car is None else None
-        except InputError:
-            if start == starts[-1]:
-                raise
+        except InputError as error:
+            first = first or error
             continue
         found = car or (mirrored(counterweight, height) if counterweight else None)
         if found is not None:
             columns = frozenset((found.column, *(column.name for column, _ in named)))
             grounded = start is None and found.quantity == "position"
             return SurveyedMotion(found, "car" if car else "counterweight", columns, stated.column is not None, grounded)
-    raise InputError(f"{files.folder / files.spec.file}: no motion of the car")
+    raise first or InputError(f"{files.folder / files.spec.file}: no motion of the car")
 
 
 def _by_values(files: RunFiles, height: float) -> str:

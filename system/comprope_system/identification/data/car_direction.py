@@ -61,7 +61,8 @@ def mirrored_car(
         return None
     return (
         "the lasers see the rope where they would with the car at the other end of the shaft: car_position counts downward? "
-        f"Write sign = -1 and zero = {model.shaft.height:g} (its reading at the bottom landing) under [car]"
+        f"Write sign = -1 and zero = {model.shaft.height:g} (its reading at the bottom landing; a thousand times that "
+        "if it is in mm) under [car]"
     )
 
 

@@ -18,14 +18,21 @@ TIME_NAMES = frozenset(
 )
 CAR_NAMES = {
     "position": "car_position car_pos car_height carposition cabin_position cab_position kabinenposition kabine_position "
-    "car_z z_car position_car fahrkorb_position fahrkorbposition car_encoder encoder car",
-    "speed": "car_speed car_velocity car_v v_car cabin_speed cabin_velocity carspeed carvelocity fahrkorbgeschwindigkeit car_vel",
-    "acceleration": "car_acceleration car_accel car_acc a_car car_a cabin_acceleration caracceleration fahrkorbbeschleunigung",
+    "car_z z_car position_car fahrkorb_position fahrkorbposition car_encoder encoder car car_level cabin_height cab_height "
+    "kabinenhöhe fahrkorbhöhe lift_position lift_height elevator_position elevator_height cage_position position_cabine",
+    "speed": "car_speed car_velocity car_v v_car cabin_speed cabin_velocity carspeed carvelocity fahrkorbgeschwindigkeit car_vel "
+    "kabinengeschwindigkeit lift_speed elevator_speed elevator_velocity",
+    "acceleration": "car_acceleration car_accel car_acc a_car car_a cabin_acceleration caracceleration fahrkorbbeschleunigung "
+    "kabinenbeschleunigung lift_acceleration elevator_acceleration",
 }
 COUNTERWEIGHT_NAMES = {
     "position": "counterweight_position counterweight_pos cw_position cwt_position counterweight_height gegengewicht_position",
     "speed": "counterweight_speed counterweight_velocity cw_speed cw_velocity cwt_speed gegengewichtgeschwindigkeit",
     "acceleration": "counterweight_acceleration cw_acceleration cwt_acceleration gegengewichtbeschleunigung",
+}
+RATES = {  # parts of names
+    "acceleration": re.compile(r"accel|beschl|(^|_)acc(_|$)|(^|_)a(_|$)"),
+    "speed": re.compile(r"speed|veloc|geschw|tacho|(^|_)vel(_|$)|(^|_)v(_|$)"),
 }
 
 
@@ -64,6 +71,13 @@ def is_time_name(name: str) -> bool:
     plain = plain_name(re.sub(r"\s*\(\d+\)$", "", name).rpartition("/")[2] or name)
     first = plain.split("_")[0]
     return plain in TIME_NAMES or first in ("time", "zeit", "timestamp", "t") or plain.endswith(("_time", "_zeit", "_timestamp"))
+
+
+def quantity_named(name: str) -> str:
+    """What a column of a motion holds, by its name: "position", "speed" or "acceleration"."""
+    plain = plain_name(name)
+    known = next((q for names in (CAR_NAMES, COUNTERWEIGHT_NAMES) for q, one in names.items() if plain in one.split()), None)
+    return known or next((quantity for quantity, pattern in RATES.items() if pattern.search(plain)), "position")
 
 
 def car_column(table: RawTable, names: dict[str, str] = CAR_NAMES) -> tuple[RawColumn, str] | None:

@@ -9,7 +9,7 @@ from comprope.errors import InputError
 
 from ..campaign_file import MotionColumn
 from ..columns.car_units import length_unit
-from ..columns.column_names import COUNTERWEIGHT_NAMES, car_column, find_column
+from ..columns.column_names import COUNTERWEIGHT_NAMES, car_column, find_column, quantity_named
 from ..columns.readings import written_unit
 from ..columns.signal_faults import MOTION_RULES
 from ..files.raw_table import RawColumn, RawTable, printable
@@ -26,13 +26,17 @@ DEFAULT_UNITS = {"position": "m", "speed": "m/s", "acceleration": "m/s2"}
 
 @dataclass(frozen=True)
 class MotionSignal:
-    """A measured motion: `value` (n,) [m, m/s or m/s2] at `time` (n,) [s], NaN where there is none; its column, and remarks."""
+    """A measured motion: `value` (n,) [m, m/s or m/s2] at `time` (n,) [s], NaN where there is none.
+
+    Its column in the file, remarks, and the unit in which the column was read.
+    """
 
     time: Floats
     value: Floats
     quantity: str
     column: str
     remarks: tuple[str, ...] = ()
+    unit: str = "m"
 
 
 def mirrored(signal: MotionSignal, height: float) -> MotionSignal:
@@ -76,10 +80,10 @@ def _column(files: RunFiles, table: RawTable, stated: MotionColumn, key: str) ->
 
 
 def _quantity(column: RawColumn) -> str:
-    """What a column of the car's motion holds, by its unit; position if that says nothing."""
+    """What a column of a motion holds, by its unit, or else by its name; position if neither says anything."""
     written = written_unit(column)
     unit = unit_named(written) if written else None
-    return next((quantity for quantity, units in MOTIONS.items() if unit in units), "position")
+    return next((quantity for quantity, units in MOTIONS.items() if unit in units), quantity_named(column.name))
 
 
 def _signal(
@@ -101,7 +105,7 @@ def _signal(
     time = samples.time if samples.sure else checked_time(files, samples, value, quantity, height)
     if quantity == "position":
         remarks = [*remarks, *implausible(time, value, column.name, samples.sure)]
-    return MotionSignal(time, value, quantity, column.name, (*samples.remarks, *remarks))
+    return MotionSignal(time, value, quantity, column.name, (*samples.remarks, *remarks), unit)
 
 
 def _unit(
