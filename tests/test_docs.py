@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from playwright.sync_api import expect
 from typer.main import get_command
 
 import comprope.effect
@@ -108,6 +109,18 @@ def test_pages_of_the_site_fit_the_window_and_load_nothing_from_elsewhere(site, 
             page.goto((site / f"{name}.html").as_uri())
             assert page.locator("h1").count() == 1, name
             assert page.evaluate("document.documentElement.scrollWidth") <= width, name
+
+
+@needs_chromium
+@pytest.mark.parametrize("page", ["index", "api/comprope_system"])
+def test_the_site_is_searched_from_files_without_a_server(site, page):
+    with opened((site / f"{page}.html").as_uri()) as shown:
+        shown.get_by_role("textbox", name="Search").fill("capstan")
+        found = shown.locator(".md-search-result__item a").first
+        expect(found).to_be_visible()
+        found.click()
+        expect(shown).not_to_have_url((site / f"{page}.html").as_uri())
+        expect(shown.locator("article")).to_contain_text("capstan")
 
 
 # -- scripts -----------------------------------------------------------------------------------------

@@ -188,7 +188,7 @@ function takeAway({ results, commands }) {
   box.replaceChildren();
   if (!results.length) make(box, "p", {}, "Nothing yet.");
   for (const { name, headline, model, fmus } of results) {
-    make(box, "h3", {}, name.replaceAll("_", " "));
+    make(box, "h3", {}, `${name[0].toUpperCase()}${name.slice(1).replaceAll("_", " ")}`);
     make(box, "p", {}, headline);
     const row = make(box, "div", { class: "downloads" });
     const files = [...(model ? ["model.toml"] : []), "report.html", "output.json", ...fmus];

@@ -136,7 +136,8 @@
     _plot(holder, own, curves, place) {
       const residual = place === "residual", move = (plot) => this.tell(own, plot), { panel } = own;
       const options = {
-        width: this.width(), height: residual ? RESIDUAL_HEIGHT : HEIGHT, legend: { show: false }, padding: [6, 12, 0, 0],
+        width: this.width(), height: residual ? RESIDUAL_HEIGHT : HEIGHT, legend: { show: false }, 
+        padding: [6, 12, place === "above" ? 8 : 0, 0], // so that the lowest number of an axis is not cut
         scales: { x: { time: false, range: () => this.range }, y: { range: (plot, low, high) => this.owner.limits(own.panel, residual) ?? (low === null ? [null, null] : uPlot.rangeNum(low, high, 0.1, true)) } }, axes: axes(place, this.owner.data.unit), series: [{}, ...curves.map(series)],
         hooks: { drawClear: [background(this.data, panel, residual)], setCursor: [move], setSelect: [(plot) => this.select(plot)] },
         cursor: {
