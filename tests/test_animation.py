@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import comprope_system
 from comprope.rope.model_file import load
 from comprope.rope.simulator.rope import CompensationRope
 from comprope_system import cli
@@ -14,10 +15,19 @@ from comprope_system.prescribed_trip import jerk_limited_trip, record_trip, side
 from comprope_system.presets import model_path
 from comprope_system.report.page import Animation, Section, save_page
 from comprope_system.simulation.animation.encoding import Trace, animation_data, decode_array, encode_array
-from comprope_system.simulation.rope_shapes import ARC, DEPTHS, MAX_FRAMES, POINTS, Frame, FrameRecorder, frame_of
+from comprope_system.simulation.rope_shapes import (
+    ARC,
+    DEPTHS,
+    MAX_FRAMES,
+    POINTS,
+    Frame,
+    FrameRecorder,
+    frame_of,
+    rest_displacements,
+)  # fmt: skip
 
 from .browser import needs_browser, played
-from .virtual_elevator import MODEL
+from .virtual_elevator import MODEL, campaign
 
 # A coarse rope in a low shaft: seconds matter here, not millimetres.
 QUICK = [
@@ -60,6 +70,47 @@ def test_a_trip_at_rest_departs_from_rest_by_nothing(trip):
     still = round(table["time"][table["car_velocity"] > 1e-6].iloc[0] / shown["interval"])
     assert np.nanmax(np.abs(swing[: still - 1])) < 1e-5
     assert 2e-4 < np.nanmax(np.abs(swing)) < 0.05  # and once it moves it swings, by millimetres
+
+
+def test_key_figures_are_swings_about_the_shape_at_rest():
+    motion = comprope_system.CarMotion(start=0.0, end=3.0)
+    changes = {"rope.element_length": 0.2, "solver.step": 0.005, "shaft.height": 12.0}
+    result = comprope_system.simulate("tower50", motion, changes=changes, step=0.02, duration=6.0, fmu=False)
+    table = result.table
+    rest = rest_displacements(result.model, table["car_position"].to_numpy(), table["counterweight_position"].to_numpy())
+    figures = dict(result.key_figures)
+    for name, still in zip(result.sensors, rest, strict=True):
+        swing = table[name] - still
+        if swing.notna().any():
+            assert abs(swing.iloc[0]) < 1e-5 or np.isnan(swing.iloc[0])
+            assert float(figures[f"peak at {name}"].split()[0]) == pytest.approx(1e3 * swing[swing.abs().idxmax()], abs=0.006)
+
+
+@needs_browser
+def test_what_was_measured_stands_beside_rope_and_sheave(tmp_path):
+    folder = campaign(tmp_path, {"effects.bearing_friction.coulomb_torque": 15.0})
+    with pytest.raises(SystemExit) as done:
+        cli.main(
+            ["simulate", str(folder / "elevator.toml"), "--car", str(folder / "up.csv"), "--report", str(tmp_path / "trip.html")]
+        )
+    assert done.value.code == 0
+    text = (tmp_path / "trip.html").read_text(encoding="utf-8")
+    shown = json.loads(re.search(r'<script type="application/json" class="film">(.*?)</script>', text, re.DOTALL)[1])
+    assert [one["name"] for one in shown["traces"] if "measured" in one] == ["cw_low", "car_low", "height of the sheave"]
+    height = next(one for one in shown["traces"] if one["name"] == "height of the sheave")
+    model, measured = (decode_array(one["value"]) for one in (height, height["measured"]))
+    assert measured[:20].mean() == pytest.approx(model[0], abs=0.02)  # mm, relative to rest
+    told = played(tmp_path / "trip.html", CIRCLES)
+    assert len(told["places"]) == 2 and all(dot != circle for dot, circle in told["places"])
+
+
+CIRCLES = """
+const time = document.querySelector(".time");
+time.value = 0.3 * time.max;
+time.dispatchEvent(new Event("input"));
+const at = [...document.querySelectorAll(".shaft > circle")].filter((one) => one.style.display !== "none").map((one) => +one.getAttribute("cx"));
+told.places = Array.from({ length: at.length / 2 }, (_, k) => at.slice(2 * k, 2 * k + 2));
+"""
 
 
 def test_the_report_leaves_the_numbers_as_they_are(trip, tmp_path):

@@ -99,6 +99,7 @@ class ModesResult(Result, Modes):
     def plot(self) -> Figure:
         """Figure of the lateral mode shapes of longest period, car side on the left."""
         figure, axes = panels(2, height=4.2)
+        axes[1].sharey(axes[0])  # the same height stands at the same place in both
         lowest = int(np.argmin(self.heights))
         sides = {"car": slice(0, lowest), "counterweight": slice(lowest, None)}
         for one, (side, nodes) in zip(axes, sides.items(), strict=True):

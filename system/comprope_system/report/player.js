@@ -174,7 +174,8 @@
       const ray = draw(svg, "line", { x1: x, y1: y, y2: y, stroke: colour, "stroke-width": 0.8, "stroke-dasharray": "3 3" });
       draw(svg, "text", { x: x - out * 2, y: y - 5, class: "name", fill: colour, "text-anchor": side ? "end" : "start" }, one.name);
       const dot = draw(svg, "circle", { cy: y, r: 4, fill: colour });
-      return { side, height: one.height, ray, dot };
+      const circle = draw(svg, "circle", { cy: y, r: 6, fill: "none", stroke: MEASURED, "stroke-width": 2 });
+      return { side, height: one.height, ray, dot, circle };
     }
 
     show(at, time) {
@@ -189,7 +190,11 @@
         this.rope[side].setAttribute("d", this.side(side, points, axle) + arc);
         this.boxes[side].setAttribute("transform", `translate(${points[0].join(" ")})`);
       }
-      this.sensors.forEach((one, k) => this._see(one, Number.isFinite(valueAt(film.traces[k], time)), ends, rise, sides, axle));
+      this.sensors.forEach((one, k) => {
+        const trace = film.traces[k], value = valueAt(trace, time), measured = trace.measured ? valueAt(trace.measured, time) : NaN;
+        this._see(one, Number.isFinite(value), ends, rise, sides, axle);
+        this._compare(one, (measured - value) / 1e3, this.y(one.height, rise, axle), axle);
+      });
     }
 
     // The dot is on the rope as drawn, which in one of the views differs from the sensor's output.
@@ -201,6 +206,15 @@
       one.dot.setAttribute("cy", y);
       one.ray.setAttribute("x2", x);
       one.dot.style.display = one.ray.style.display = seen ? "" : "none";
+    }
+
+    // The circle is beside the dot by what was measured more than the model says [m].
+    _compare(one, more, y, axle) {
+      const known = Number.isFinite(more), by = (one.side ? 1 : -1) * this.lateral * this.stretch * more;
+      one.circle.style.display = known ? "" : "none";
+      if (!known) return;
+      one.circle.setAttribute("cx", this.outside(one.side, +one.dot.getAttribute("cx") + by, y, axle));
+      one.circle.setAttribute("cy", y);
     }
 
     // Sets the magnification relative to the one that fills the picture; returns the ratio of lateral to vertical scale.

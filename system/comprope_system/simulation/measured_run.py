@@ -22,14 +22,16 @@ from ..measurements.motion.anchoring import Landings
 from ..measurements.motion.recover import Motion
 from ..measurements.runs.end_motions import EndSignals, recover_ends
 from ..measurements.runs.run_table import present_channels, read_run_table
+from ..measurements.units import UNITS
 from .timing import Timing
 
 Floats = NDArray[np.float64]
+QUANTITIES = tuple(UNITS)  # of channels; a result has a column of the same name for each that is not of a sensor
 
 
 @dataclass(frozen=True)
 class Channel:
-    """Lateral displacement measured at a sensor [m]; `from_rest`: relative to its mean before the trip."""
+    """Measured values of a column of the result [SI]; `from_rest`: relative to their mean before the trip."""
 
     time: Floats
     value: Floats
@@ -41,7 +43,7 @@ class Run:
     """A measured run.
 
     Trips of "car" and "counterweight", outward displacements [m] of the rope's ends by the same names where measured, channels by
-    sensor, changes of the model, first and last time [s], and remarks about the file and the recovered motion.
+    column of the result, changes of the model, first and last time [s], and remarks about the file and the recovered motion.
     """
 
     trips: dict[str, Trip]
@@ -75,14 +77,15 @@ def read_run(path: Path, height: float, sensors: Sequence[str], wishes: MotionWi
     wishes = wishes or MotionWishes()
     asked = {"motion": wishes.motion, "car_start": wishes.start, "car_end": wishes.end}
     spec = spec.model_copy(update={key: value for key, value in asked.items() if value is not None})
-    wanted = [one for one in campaign.channels if one.quantity == "lateral_displacement" and one.sensor in sensors]
+    wanted = [one for one in campaign.channels if (one.sensor or one.quantity) in (*sensors, *QUANTITIES)]
     campaign = campaign.model_copy(update={"channels": present_channels(path.parent, spec, campaign.file, wanted)})
     within = path.parent if spec.files else None  # the file itself was named by the user, others by its campaign
     table = read_run_table(path.parent, spec, campaign, height, within)
     signals = EndSignals(table.car, table.counterweight, table.lateral)
     ends = recover_ends(signals, height, spec.motion or campaign.motion, Landings(spec.car_start, spec.car_end), str(path))
     channels = {
-        str(one.sensor): Channel(table.time, table.values[one.column], one.reference == "rest") for one in campaign.channels
+        one.sensor or one.quantity: Channel(table.time, table.values[one.column], one.reference == "rest")
+        for one in campaign.channels
     }
     trips, begin, end = {"car": ends.car, "counterweight": ends.counterweight}, float(table.time[0]), float(table.time[-1])
     return Run(trips, ends.lateral, channels, dict(spec.set), begin, end, (*table.remarks, *ends.remarks))

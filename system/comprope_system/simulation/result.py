@@ -1,6 +1,7 @@
 """The result of `comprope_system.simulate`: one trip as a table, with summary, plot and HTML page."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,8 @@ from ..report.page import Picture, Section
 from ..report.result import Result
 from .clearance import Clearance, clearance_of, known_wall
 from .measured_run import Run
-from .rope_shapes import Recording
-from .trip_simulation import Simulated, summary
+from .rope_shapes import Recording, rest_displacements
+from .trip_simulation import Simulated, summary, travel
 
 
 @dataclass(frozen=True, repr=False)
@@ -39,12 +40,17 @@ class SimulationResult(Result, Simulated):
 
     def headline(self) -> str:
         """Start and end of the car's motion, and the simulated time."""
-        figures = dict(summary(self))
-        return f"{self.model_name}: the car from {figures['car']}, {figures['duration']} simulated"
+        return f"{self.model_name}: the car from {travel(self.table)}, {self.table['time'].iloc[-1]:.2f} s simulated"
+
+    @cached_property
+    def key_figures(self) -> list[tuple[str, str]]:
+        """Names and texts: duration, swings about the shape at rest, forces, accuracy."""
+        ends = (self.table[f"{side}_position"].to_numpy(float) for side in ("car", "counterweight"))
+        return summary(self, dict(zip(self.sensors, rest_displacements(self.model, *ends), strict=True)))
 
     def summary(self) -> str:
         """Key figures of the trip, one per line, and remarks about a measured motion."""
-        lines = summary(self)
+        lines = self.key_figures
         width = max(len(name) for name, _ in lines)
         remarks = (*self.remarks, *(self.measured.remarks if self.measured else ()))
         return "\n".join((*(f"{name:<{width}}  {text}" for name, text in lines), *(f"note: {remark}" for remark in remarks)))
@@ -54,7 +60,7 @@ class SimulationResult(Result, Simulated):
         return {
             "model": self.model_name,
             "sensors": list(self.sensors),
-            "key_figures": dict(summary(self)),
+            "key_figures": dict(self.key_figures),
             "remarks": [*self.remarks, *(self.measured.remarks if self.measured else ())],
             "units": {"time": "s"} | {one.name: one.unit for one in self.columns},
             "table": plain({name: self.table[name].to_numpy() for name in self.table}),
@@ -92,7 +98,7 @@ class SimulationResult(Result, Simulated):
         if wall is not None or getattr(self.model.effects, "shaft_walls", None) is not None:
             found = self.clearance(wall)
             others.append(Section("clearance", "Clearance", [found.summary(), Picture("clearance", found.plot())]))
-        save_trip_page(Path(path), self.model_name, self.model, self, self.recording, self.measured, others)
+        save_trip_page(Path(path), self.model_name, self.model, self, self.key_figures, self.recording, self.measured, others)
 
     def save_plot(self, path: str | Path) -> None:
         """Write the plot of the trip as .png, .pdf or .svg, completely or not at all."""

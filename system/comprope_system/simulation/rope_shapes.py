@@ -18,6 +18,7 @@ DEPTHS = (
 ARC = 48  # along the rope round the sheave
 REACH = 1.6  # radii above the axle up to which that rope is kept
 FRAME_RATE = 20.0  # frames a second: a rope's lower modes in a shaft are slower than 2 Hz
+REST_POSITIONS = 60  # of the ends at which the static shape is computed: it changes little from one to the next
 MAX_FRAMES = 1200  # frames; a longer trip has fewer of them a second
 
 
@@ -56,6 +57,22 @@ def rest_shapes(model: Base, frames: Iterable[Frame]) -> list[Floats]:
         rope.solve_equilibrium(*frame.ends)
         found.append(_sides(rope))
     return found
+
+
+def rest_displacements(model: Base, cars: Floats, counterweights: Floats) -> Floats:
+    """Outward displacement (sensors, n) [m] of the static shape at each sensor, for heights (n,) [m] of the rope's ends.
+
+    NaN where the rope has passed the sensor. Shapes are computed at REST_POSITIONS of the trip and interpolated between them.
+    """
+    moved = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(cars)) + np.abs(np.diff(counterweights)))])
+    places = np.searchsorted(moved, np.linspace(0.0, moved[-1], REST_POSITIONS if moved[-1] > 0.0 else 1))
+    chosen = np.unique(places.clip(0, len(cars) - 1))
+    rope, found = CompensationRope(model), []
+    for k in chosen:
+        rope.solve_equilibrium(float(cars[k]), float(counterweights[k]))
+        found.append([rope.lateral_displacement(one.side, one.height) for one in model.sensors])
+    table = np.array([[value if seen else np.nan for value, seen in row] for row in found]).reshape(len(chosen), -1)
+    return np.array([np.interp(moved, moved[chosen], column) for column in table.T])
 
 
 def _sides(rope: CompensationRope) -> Floats:

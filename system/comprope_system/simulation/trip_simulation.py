@@ -1,12 +1,13 @@
 """One trip from start to end: run the elevator, record its columns, sum it up."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from comprope.atomic_files import atomic_write
 from comprope.rope.parameters import Base
@@ -68,15 +69,15 @@ def _row(sample: Sample, chosen: Sequence[Column], sensors: Sequence[str]) -> li
     return [round(sample.time, 9), *values]
 
 
-def summary(simulated: Simulated) -> list[tuple[str, str]]:
-    """Key figures of a trip as pairs of name and text."""
+def summary(simulated: Simulated, rest: Mapping[str, NDArray[np.float64]]) -> list[tuple[str, str]]:
+    """Key figures of a trip as pairs of name and text; `rest` are displacements (n,) [m] of the static shape by sensor."""
     table = simulated.table
     force = table["sheave_force"]
     end = table.iloc[-1]
     return [
         ("duration", f"{end['time']:.2f} s"),
-        ("car", f"{_height(table['car_position'].iloc[0])} to {_height(end['car_position'])}"),
-        *((f"peak at {name}", _peak(table, name)) for name in simulated.sensors),
+        ("car", travel(table)),
+        *((f"peak at {name}", _peak(table, name, rest[name])) for name in simulated.sensors),
         ("sheave force", f"{force.min():.1f} N to {force.max():.1f} N"),
         ("sheave displacement", f"{_range(table['sheave_displacement'])} mm"),
         *_slack(table),
@@ -93,17 +94,22 @@ def _slack(table: pd.DataFrame) -> list[tuple[str, str]]:
     return [("slack rope", slack), ("peak tension", f"{table['peak_element_tension'].iloc[-1]:.0f} N")]
 
 
+def travel(table: pd.DataFrame) -> str:
+    """Heights of the car at the start and at the end."""
+    return f"{_height(table['car_position'].iloc[0])} to {_height(table['car_position'].iloc[-1])}"
+
+
 def _height(value: float) -> str:
     return f"{round(value, 2) + 0.0:.2f} m"
 
 
-def _peak(table: pd.DataFrame, name: str) -> str:
-    """Largest deviation from the initial value, with its time."""
-    change = table[name] - table[name].iloc[0]
-    if not change.notna().any():
-        return "the rope was not in view at the start" if table[name].notna().any() else "the rope was never in view"
-    at = change.abs().idxmax()
-    return f"{1e3 * change[at]:+.2f} mm from rest, at {table['time'][at]:.2f} s"
+def _peak(table: pd.DataFrame, name: str, rest: NDArray[np.float64]) -> str:
+    """Largest deviation from the shape at rest with the car where it is, with its time."""
+    swing = table[name] - rest
+    if not swing.notna().any():
+        return "the rope was never in view"
+    at = swing.abs().idxmax()
+    return f"{1e3 * swing[at]:+.2f} mm from the shape at rest, at {table['time'][at]:.2f} s"
 
 
 def _range(values: pd.Series) -> str:

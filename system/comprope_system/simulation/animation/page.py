@@ -11,7 +11,7 @@ from ...report.page import Animation, Picture, Section, Table, save_page
 from ..measured_run import Run
 from ..plot import draw_trip
 from ..rope_shapes import Recording
-from ..trip_simulation import Simulated, summary
+from ..trip_simulation import Simulated
 from .encoding import animation_data
 from .traces import traces
 
@@ -20,9 +20,9 @@ _CAPTION = (
     "Left: the shaft; lateral motion is magnified, the distance of the two sides, the size of the sheave and the pit below the"
     " bottom landing are not to scale. A side that the magnification would lead through the sheave is drawn on its rim."
     " The displacement is drawn relative to the static shape for the same car position, or relative to the vertical (dotted),"
-    " where a straight, perfectly flexible rope would be. Right: the rope around the sheave, to scale; the vertical motion of"
-    " the sheave is magnified. Plots: displacement at each sensor, positive outward on either side; a curve is interrupted "
-    "while the end of the rope has passed the sensor."
+    " where a straight, perfectly flexible rope would be. Circles are what sensors measured. Right: the rope around the sheave,"
+    " to scale; the vertical motion of the sheave is magnified. Plots: displacement at each sensor, positive outward on either"
+    " side; a curve is interrupted while the end of the rope has passed the sensor."
 )
 
 
@@ -31,17 +31,21 @@ def save_trip_page(
     name: str,
     model: Base,
     trip: Simulated,
+    figures: Sequence[tuple[str, str]],
     recording: Recording,
     measured: Run | None = None,
     others: Sequence[Section] = (),
 ) -> None:
-    """Write the page of a simulated trip of the model called `name`, with other sections, completely or not at all."""
+    """Write the page of a simulated trip of the model called `name`, with its key figures and other sections.
+
+    Completely or not at all.
+    """
     car = trip.table["car_position"]
     lead = _LEAD.format(distance=float(car.max() - car.min()), height=model.shaft.height, mass=model.sheave.mass_per_rope)
     moving = Animation("trip", animation_data(model, recording.frames, recording.interval, traces(trip, measured)), _CAPTION)
     sections = [
         Section("motion", "Animation", [moving]),
-        Section("figures", "Key figures", [Table(("", ""), summary(trip))]),
+        Section("figures", "Key figures", [Table(("", ""), figures)]),
         Section("curves", "Plots", [Picture("curves", draw_trip(trip, measured))]),
         *others,
         Section("model", "Model parameters", [_model(model)]),

@@ -1,6 +1,5 @@
 """Curves shown with an animation: sensor signals, and motion of car and sheave."""
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..measured_run import Run
@@ -18,22 +17,26 @@ OTHER_TRACES = (  # column, name, factor, unit
 
 
 def traces(simulated: Simulated, measured: Run | None = None) -> list[Trace]:
-    """Sensor signals [mm] with measured ones, followed by car and sheave."""
+    """Sensor signals [mm], followed by car and sheave, each with what was measured of it."""
     table = simulated.table.iloc[:: _stride(len(simulated.table))]
     time = table["time"]
     seen = [
-        Trace(name, "mm", time, 1e3 * table[name], k, _measured(simulated, name, measured))
+        Trace(name, "mm", time, 1e3 * table[name], k, _measured(simulated, name, measured, 1e3))
         for k, name in enumerate(simulated.sensors)
     ]
-    return [*seen, *(Trace(name, unit, time, factor * table[column]) for column, name, factor, unit in OTHER_TRACES)]
+    others = [
+        Trace(name, unit, time, factor * table[column], None, _measured(simulated, column, measured, factor))
+        for column, name, factor, unit in OTHER_TRACES
+    ]
+    return seen + others
 
 
-def _measured(simulated: Simulated, name: str, measured: Run | None) -> tuple[ArrayLike, ArrayLike] | None:
+def _measured(simulated: Simulated, name: str, measured: Run | None, factor: float) -> tuple[ArrayLike, ArrayLike] | None:
     if not measured or name not in measured.channels:
         return None
-    time, value = (np.asarray(one) for one in alongside(measured.channels[name], measured, simulated, name))
+    time, value = alongside(measured.channels[name], measured, simulated, name)
     stride = _stride(len(time))
-    return time[::stride], value[::stride]
+    return time[::stride], factor * value[::stride]
 
 
 def _stride(length: int) -> int:
