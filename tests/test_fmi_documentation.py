@@ -1,14 +1,18 @@
 """The page inside an FMU: its pictures speak of the variables by their names."""
 
+import io
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from comprope.drive.cosimulation import interface as drive_interface
 from comprope.fmi.arrays import groups_of
 from comprope.fmi.documentation import documentation_page
+from comprope.fmi.icon import SIZE, icon
 from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.model_file import load
 from comprope.rope.simulator.cosimulation import interface as rope_interface
@@ -31,6 +35,17 @@ def labels(model: ModelInterface) -> Iterator[str]:
             if group.get("font-family") == "monospace":
                 texts = (one.text or "" for one in group.iter(f"{SVG}text") if not one.get("font-family"))
                 yield from (name.replace("[k]", "[1]") for text in texts for name in re.split(r",\s*", text) if name)
+
+
+def test_rope_and_drive_have_icons_of_their_own():
+    pictures = {}
+    for name in ("sheave", "machine"):
+        with Image.open(io.BytesIO(icon(name))) as image:
+            pictures[name] = np.asarray(image.convert("RGBA"))
+    assert pictures["sheave"].shape == pictures["machine"].shape == (SIZE, SIZE, 4)
+    seen = {name: one[..., 3] > 128 for name, one in pictures.items()}
+    assert np.mean(seen["sheave"] != seen["machine"]) > 0.1
+    assert [ROPE.icon, DRIVE.icon] == ["sheave", "machine"]
 
 
 @pytest.mark.parametrize("model", [ROPE, DRIVE], ids=lambda model: model.name)

@@ -43,6 +43,7 @@ def interface(drive: Drive | None = None) -> ModelInterface:
         create,
         stop_time=float(stop_time),
         pictures=_PICTURES,
+        icon="machine",
         terminals=(TERMINAL,),
     )
 

@@ -91,8 +91,8 @@ class ModelInterface:
     `create(parameters, inputs, start_time)` makes a simulator from values by name; it raises
     `InputError` with one sentence that holds all problems, joined by "; ".
     `stop_time` and `step_size` [s] are the defaults for an importer. `pictures` are SVG files that show what the
-    variables are. `reference_inputs(time)` gives real inputs by name for the simulation of 4 s whose result is kept as a
-    reference; other inputs hold their start values. FMI 3.0 has the `terminals`.
+    variables are, `icon` is a name of `icon.py`. `reference_inputs(time)` gives real inputs by name for the simulation of
+    4 s whose result is kept as a reference; other inputs hold their start values. FMI 3.0 has the `terminals`.
     """
 
     name: str
@@ -104,6 +104,7 @@ class ModelInterface:
     pictures: tuple[Path, ...] = ()
     reference_inputs: Callable[[float], Mapping[str, float]] = lambda _time: {}
     terminals: tuple[Terminal, ...] = ()
+    icon: str = "sheave"
 
     def of_role(self, role: Role) -> tuple[Variable, ...]:
         """The variables of one role, in their order."""

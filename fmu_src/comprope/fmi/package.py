@@ -215,7 +215,7 @@ def _binary_files(name: str) -> dict[str, bytes]:
 
 def _documentation_files(interface: ModelInterface, origin: Origin, needs: str) -> dict[str, bytes]:
     return {
-        "model.png": icon(),
+        "model.png": icon(interface.icon),
         "documentation/index.html": documentation_page(interface, origin.version, origin.python, needs).encode(),
         "documentation/licenses/license.txt": origin.licence.encode(),
     }

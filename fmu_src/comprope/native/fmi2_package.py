@@ -46,4 +46,4 @@ def universal_binary(parts: list[bytes]) -> bytes:
     return head + bytes((1 << _ALIGNMENT) - len(head)) + body
 
 
-FMI2 = FmiVersion("2.0", "native", model_description, binary_files, lambda _: {"model.png": icon()})
+FMI2 = FmiVersion("2.0", "native", model_description, binary_files, lambda one: {"model.png": icon(one.icon)})

@@ -91,7 +91,7 @@ def icon_files(interface: ModelInterface) -> dict[str, bytes]:
                 ET.SubElement(terminal, "TerminalMemberVariable", member)
     ET.indent(root)
     text = ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
-    return {"terminalsAndIcons/terminalsAndIcons.xml": text, "terminalsAndIcons/icon.png": icon()}
+    return {"terminalsAndIcons/terminalsAndIcons.xml": text, "terminalsAndIcons/icon.png": icon(interface.icon)}
 
 
 FMI3 = FmiVersion("3.0", "native_fmi3", model_description, binary_files, icon_files)
