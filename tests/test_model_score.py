@@ -6,15 +6,17 @@ import numpy as np
 import pytest
 
 from comprope_system.identification.comparison.nrmse import channel_error, overall
+from comprope_system.identification.estimation.mass_search import promises
 from comprope_system.identification.estimation.model_score import (
     NoiseLevel,
+    chi_square_resolution,
     complexity_penalty,
     least_noticed,
     log_score,
     penalised_chi_square,
     prior_cost,
 )
-from comprope_system.identification.estimation.weighted_least_squares import scale_of, solve, solve_in_scale
+from comprope_system.identification.estimation.weighted_least_squares import Solution, compressed, scale_of, solve, solve_in_scale
 from comprope_system.identification.hypotheses.effect_hypotheses import Hypothesis
 from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS, Direction
 
@@ -27,8 +29,8 @@ NOISE = NoiseLevel(3000, 0.8)
 
 
 def test_where_noise_is_all_that_is_left_the_score_is_the_likelihood() -> None:
-    """Half of chi-square over that of a datum of noise, in each of 3000 data, beyond the 4 % that the model may err."""
-    explained = 0.8 * 3000.0 * 1.04
+    """Half of chi-square over that of a datum of noise, in each of 3000 data, beyond the 0.5 % that the model may err."""
+    explained = 0.8 * 3000.0 * 1.005
     gain = log_score(explained, NOISE) - log_score(explained + 0.1, NOISE)
     assert gain == pytest.approx(0.5 * 0.1 / 0.8, rel=1e-3)
     assert log_score(0.8 * 3000.0, NOISE) == log_score(explained, NOISE) == 0.0
@@ -37,7 +39,7 @@ def test_where_noise_is_all_that_is_left_the_score_is_the_likelihood() -> None:
 def test_a_discrepancy_counts_as_two_hundred_amplitudes() -> None:
     """Halving a chi-square that is mostly discrepancy gains 100 ln 2, however many data there are."""
     assert log_score(1e9, NOISE) - log_score(2e9, NOISE) == pytest.approx(100.0 * math.log(2.0), rel=1e-4)
-    assert log_score(4e3, NOISE) == pytest.approx(-100.0 * math.log1p((4e3 / 0.8 - 3120.0) / 200.0), rel=1e-14)
+    assert log_score(4e3, NOISE) == pytest.approx(-100.0 * math.log1p((4e3 / 0.8 - 3015.0) / 200.0), rel=1e-14)
     assert log_score(4e3, NOISE, 7.5) == pytest.approx(log_score(4e3, NOISE) - 7.5, rel=1e-14)
 
 
@@ -51,6 +53,34 @@ def test_the_least_decrease_that_is_noticed_is_worth_its_cost(chi_square: float)
     """Of a model that lacks an effect, beside the best fit, which leaves `chi_square`."""
     raised = chi_square + least_noticed(chi_square, NOISE, 12.0)
     assert log_score(chi_square, NOISE) - log_score(raised, NOISE) == pytest.approx(12.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("chi_square", [2400.0, 1e6])
+def test_a_fit_ends_where_the_score_gains_little(chi_square: float) -> None:
+    """Near the noise a decrease of chi-square by two data's noise is one unit of score; of a large one it is one per cent."""
+    step = chi_square_resolution(chi_square, 3000, 1.0)
+    assert step == pytest.approx(1.6 if chi_square == 2400.0 else 0.01 * (chi_square - 3000.0 * 1.1 * 1.005 + 220.0), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("here", "there", "promising"),
+    [(2900.0, 2700.0, True), (2700.0, 2690.0, False), (1.00e6, 0.90e6, True), (1.00e6, 0.92e6, False), (2700.0, 2900.0, False)],
+)
+def test_another_mass_is_tried_for_a_tenth_of_much_or_for_twenty_of_noise(here: float, there: float, promising: bool) -> None:
+    """Noise that is stated too large hides a mass that is a tenth off, unless all that it leaves is counted."""
+    found = {mass: Solution(np.zeros(1), left, left, np.zeros((1, 1))) for mass, left in ((0.0, here), (0.1, there))}
+    assert promises(found, 0.1, 0.0, 3470) is promising
+    assert not promises(found, 0.0, 0.0, 3470)
+    assert not promises({0.1: found[0.1]}, 0.1, 0.0, 3470)
+
+
+def test_an_orthogonal_transform_keeps_every_sum_of_squares() -> None:
+    random = np.random.default_rng(5)
+    matrix, residual = random.normal(size=(400, 3)), random.normal(size=400)
+    small, left = compressed(matrix, residual)
+    assert small.shape == (4, 3)
+    for x in random.normal(size=(4, 3)):
+        assert np.sum((left - small @ x) ** 2) == pytest.approx(np.sum((residual - matrix @ x) ** 2), rel=1e-12)
 
 
 def test_what_was_free_to_choose_has_its_penalty() -> None:

@@ -1,6 +1,7 @@
 """Two effects fitted together: which of them is needed, and which explains most."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -33,6 +34,11 @@ def screened(hypothesis, chi_square: float = 1.0, sized: bool = False) -> Screen
     return ScreenedHypothesis(hypothesis, start, chi_square, 0.0, np.zeros((3, len(hypothesis.directions))), 1.0, 1, sized)
 
 
+def candidate(one: ScreenedHypothesis, fitted: FitResult, refined: bool = True) -> CandidateFit:
+    """A fit to a problem that nobody asks for."""
+    return CandidateFit(one, fitted, refined, SimpleNamespace(), fitted.chi_square)
+
+
 def test_the_effects_of_a_combination_change_places_with_all_that_belongs_to_them() -> None:
     pair = fit(combine(HYSTERESIS, BEARING), 5.0)
     found = pair_fits.in_order(pair, ["bearing_friction", "bending_hysteresis"])
@@ -55,12 +61,13 @@ def test_each_effect_of_a_pair_is_fitted_alone_from_what_it_is_in_the_pair(monke
         return replace(fit(hypothesis, alone[hypothesis.effect]), coefficients=start)
 
     monkeypatch.setattr(pair_fits, "gauss_newton", fitted_alone)
+    monkeypatch.setattr(pair_fits, "corrected", lambda context, one, fitted: candidate(one, fitted))
     monkeypatch.setattr(pair_fits, "with_mass_search", lambda context, one: one)
     context = FitContext(None, None, ParameterPoint(), fit(HYSTERESIS, 900.0), lambda stage: None)
-    pair = CandidateFit(screened(BEARING), fit(combine(HYSTERESIS, BEARING), 5.0), True)
+    pair = candidate(screened(BEARING), fit(combine(HYSTERESIS, BEARING), 5.0))
     first = [
-        CandidateFit(screened(HYSTERESIS), fit(HYSTERESIS, 150.0), True),
-        CandidateFit(screened(BEARING), fit(BEARING, 260.0), False),
+        candidate(screened(HYSTERESIS), fit(HYSTERESIS, 150.0)),
+        candidate(screened(BEARING), fit(BEARING, 260.0), refined=False),
     ]
     found = pair_fits.with_single_fits(context, first, pair)
     by_name = {one.hypothesis.effect: one for one in found}

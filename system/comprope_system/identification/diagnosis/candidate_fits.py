@@ -23,11 +23,17 @@ from .linear_screening import ScreenedHypothesis, indistinguishable
 
 
 class CandidateFit(NamedTuple):
-    """An effect as screened and as fitted, and whether the fit is one on the full model."""
+    """An effect as screened and as fitted, and whether the fit is one on the full model.
+
+    A fit is made on the coarse mesh and then corrected by one replay on the full mesh: it is one to `problem`, which has the
+    chi-square of the full mesh at its point. `rough` is the chi-square before, which those of other fits are compared with.
+    """
 
     screening: ScreenedHypothesis
     fitted: FitResult
     refined: bool
+    problem: LeastSquaresProblem
+    rough: float
 
     @property
     def hypothesis(self) -> Hypothesis:
@@ -65,7 +71,7 @@ def fit_candidates(context: FitContext, screened: Sequence[ScreenedHypothesis]) 
     Screening alone does not decide: whichever effect leads is fitted on the full model until the leader is such a fit.
     """
     baseline = context.baseline
-    found = [_from_screening(one, baseline) for one in screened]
+    found = [_from_screening(context, one) for one in screened]
     worthwhile = CANDIDATES.min_improvement * len(context.problem.data)
     least = max(CANDIDATES.min_share * _improvement(found[0], baseline), worthwhile)
     for k, one in enumerate(screened[: CANDIDATES.max_fits]):
@@ -164,19 +170,36 @@ def fit_on_full_model(context: FitContext, one: ScreenedHypothesis, found: Seque
     """
     context.report_progress(f"{one.hypothesis.effect}: fit on the full model")
     problem, origin, baseline = context.problem, context.origin, context.baseline
-    abandon_above = CANDIDATES.abandon_factor * least_chi_square(found, float("inf"))
+    abandon_above = CANDIDATES.abandon_factor * min((one.rough for one in found if one.refined), default=float("inf"))
     try:
         start = one.start
         if not one.sized:
             start = best_initial_guess(problem, one.hypothesis, start, origin, baseline, expected=one.chi_square)
         fitted = gauss_newton(problem, one.hypothesis, start, origin, abandon_above)
-        fitted = free_shape_parameters(problem, origin, fitted, abandon_above)
+        found_here = corrected(context, one, fitted, abandon_above)
     except SimulationError:
         absent = np.concatenate([baseline.coefficients[: len(PLANT_PARAMETERS)], np.zeros(len(one.hypothesis.directions))])
         fitted = replace(baseline, hypothesis=one.hypothesis, coefficients=absent)
-    left = fitted.chi_square / max(len(problem.data), 1)
+        found_here = CandidateFit(one, fitted, True, problem, fitted.chi_square)
+    left = found_here.fitted.chi_square / max(len(problem.data), 1)
     context.report_progress(f"{one.hypothesis.effect}: fitted, reduced chi-square {left:.3g}")
-    return CandidateFit(one, fitted, True)
+    return found_here
+
+
+def corrected(
+    context: FitContext, one: ScreenedHypothesis, fitted: FitResult, abandon_above: float = float("inf")
+) -> CandidateFit:
+    """A fit on the coarse mesh with what the full mesh leaves at its point, and with its shape parameters fitted there.
+
+    An abandoned fit stays as it is. Raises `SimulationError` where the full mesh cannot be simulated.
+    """
+    problem, rough, full = context.problem, fitted.chi_square, context.full_problem
+    if problem.coarse != full.coarse and rough < abandon_above:
+        problem = full.corrected(problem.coarse, fitted.predictions, full.predictions(fitted.point)[0])
+        residual = problem.residual(fitted.predictions)
+        fitted = replace(fitted, chi_square=float(residual @ residual))
+        abandon_above = float("inf")
+    return CandidateFit(one, free_shape_parameters(problem, context.origin, fitted, abandon_above), True, problem, rough)
 
 
 def _fit_indistinguishable(
@@ -190,18 +213,18 @@ def _fit_indistinguishable(
 
 def with_mass_search(context: FitContext, one: CandidateFit) -> CandidateFit:
     """The candidate fit from a better mass of the rope, if there is one, with shape parameters fitted again."""
-    moved = search_rope_mass(context.problem, one.fitted, context.origin)
+    moved = search_rope_mass(one.problem, one.fitted, context.origin)
     if moved is one.fitted:
         return one
-    return one._replace(fitted=free_shape_parameters(context.problem, context.origin, moved))
+    return one._replace(fitted=free_shape_parameters(one.problem, context.origin, moved))
 
 
-def _from_screening(one: ScreenedHypothesis, baseline: FitResult) -> CandidateFit:
+def _from_screening(context: FitContext, one: ScreenedHypothesis) -> CandidateFit:
     """Fit that screening predicts."""
     fitted = replace(
-        baseline, hypothesis=one.hypothesis, coefficients=one.start, chi_square=one.chi_square, prior_cost=one.prior_cost
+        context.baseline, hypothesis=one.hypothesis, coefficients=one.start, chi_square=one.chi_square, prior_cost=one.prior_cost
     )
-    return CandidateFit(one, fitted, False)
+    return CandidateFit(one, fitted, False, context.problem, one.chi_square)
 
 
 def _improvement(one: CandidateFit, baseline: FitResult) -> float:

@@ -112,9 +112,9 @@ def screen_about_fits(
     for fit in [baseline] if nominal is None or close else [baseline, nominal]:
         residual, directions = problem.residual(fit.predictions), problem.directions(fit.hypothesis)
         plant = solve_in_scale(residual, fit.jacobian, directions, fit.coefficients)
-        share = baseline.chi_square / plant.chi_square
+        share, imitable = baseline.chi_square / plant.chi_square, imitable_responses(problem, fit)
         for one in responses:
-            screened += _screened_variants(problem, one, responses, fit, share)
+            screened += _screened_variants(problem, one, responses, fit, imitable, share)
     return screened
 
 
@@ -139,15 +139,15 @@ def screen_at_other_masses(
 
 
 def _screened_variants(
-    problem: LeastSquaresProblem, one: Hypothesis, responses: Responses, fit: FitResult, share: float
+    problem: LeastSquaresProblem, one: Hypothesis, responses: Responses, fit: FitResult, imitable: Floats, share: float
 ) -> Iterator[ScreenedHypothesis]:
     """Hypothesis with the same phase in all runs and, if it has a phase, with one for each run, screened about a fit.
 
-    Chi-squares are multiplied by `share`.
+    `imitable` are the responses that the fit's parameters imitate; chi-squares are multiplied by `share`.
     """
     response = responses[one]
     variants = sum(other.effect == one.effect for other in responses)
-    orthogonal, distinct = orthogonal_response(problem, response, fit)
+    orthogonal, distinct = orthogonal_response(response, imitable)
     start = np.concatenate([fit.coefficients, np.zeros(response.shape[1])])
     matrix, directions = np.hstack([fit.jacobian, response]), [*problem.directions(fit.hypothesis), *one.directions]
     solution = solve_in_scale(problem.residual(fit.predictions), matrix, directions, start)
@@ -159,10 +159,14 @@ def _screened_variants(
         yield ScreenedHypothesis(with_phases, found, share * chi_square, cost, orthogonal, distinct, 2 * variants)
 
 
-def orthogonal_response(problem: LeastSquaresProblem, response: Floats, fit: FitResult) -> tuple[Floats, float]:
-    """Part of a response (N, k) that the parameters of a fit cannot imitate within their priors, and its share of the norm."""
-    others = problem.directions(fit.hypothesis)
-    weights = np.vstack([fit.jacobian, np.diag([1.0 / p.prior for p in others])])
-    padded = np.vstack([response, np.zeros((len(others), response.shape[1]))])
-    orthogonal = (padded - weights @ np.linalg.lstsq(weights, padded, rcond=None)[0])[: len(response)]
+def imitable_responses(problem: LeastSquaresProblem, fit: FitResult) -> Floats:
+    """Orthonormal basis (N + parameters, parameters) of what the parameters of a fit can imitate within their priors."""
+    priors = np.diag([1.0 / one.prior for one in problem.directions(fit.hypothesis)])
+    return np.asarray(np.linalg.qr(np.vstack([fit.jacobian, priors]))[0])
+
+
+def orthogonal_response(response: Floats, imitable: Floats) -> tuple[Floats, float]:
+    """Part of a response (N, k) that the parameters of a fit cannot imitate, and its share of the norm."""
+    count = len(response)
+    orthogonal = response - imitable[:count] @ (imitable[:count].T @ response)
     return orthogonal, float(np.linalg.norm(orthogonal)) / max(float(np.linalg.norm(response)), 1e-300)

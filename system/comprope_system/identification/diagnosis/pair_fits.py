@@ -12,32 +12,28 @@ from ..hypotheses.effect_hypotheses import Hypothesis, combine
 from ..hypotheses.model_effects import components_by_effect, effect_name
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..settings import CANDIDATES
-from .candidate_fits import CandidateFit, FitContext, free_shape_parameters, with_mass_search
+from .candidate_fits import CandidateFit, FitContext, corrected, with_mass_search
 from .linear_screening import ScreenedHypothesis, screen_hypotheses
 
 
 def fit_pair(context: FitContext, found: Sequence[CandidateFit]) -> CandidateFit | None:
     """Best effect and a second one fitted together; None where the best alone explains too little."""
-    first = min((one.fitted for one in found if one.refined), key=lambda one: one.chi_square, default=None)
-    if first is None or first.hypothesis is None:
-        return None
-    if first.chi_square > CANDIDATES.pair_threshold * context.baseline.chi_square:
+    first = min((one for one in found if one.refined), key=lambda one: one.fitted.chi_square, default=None)
+    if first is None or first.fitted.chi_square > CANDIDATES.pair_threshold * context.baseline.chi_square:
         return None
     context.report_progress(f"{first.hypothesis.effect} and a second effect: linear screening")
-    screened = screen_hypotheses(context.problem, first.point, first)
+    screened = screen_hypotheses(first.problem, first.fitted.point, first.fitted)
     pairs = [pair for one in screened[: CANDIDATES.max_pairs] if (pair := _fit_together(context, first, one))]
     best = min(pairs, key=lambda one: one.fitted.chi_square, default=None)
     return best and with_mass_search(context, best)
 
 
-def _fit_together(context: FitContext, first: FitResult, second: ScreenedHypothesis) -> CandidateFit | None:
+def _fit_together(context: FitContext, first: CandidateFit, second: ScreenedHypothesis) -> CandidateFit | None:
     """Fit of two effects on the full model; None where it cannot be simulated."""
-    assert first.hypothesis is not None
     both = combine(first.hypothesis, second.hypothesis)
     context.report_progress(f"{both.effect}: fit on the full model")
     try:
-        fitted = gauss_newton(context.problem, both, second.start, context.origin)
-        return CandidateFit(second, free_shape_parameters(context.problem, context.origin, fitted), True)
+        return corrected(context, second, gauss_newton(first.problem, both, second.start, context.origin))
     except SimulationError:
         return None
 
@@ -69,12 +65,11 @@ def _alone(
     context.report_progress(f"{part.effect} alone: fit on the full model")
     plant = pair.fitted.coefficients[: len(PLANT_PARAMETERS)]
     try:
-        fitted = gauss_newton(
-            context.problem, part, np.concatenate([plant, *(own for _, own in components)]), context.origin
-        )
+        fitted = gauss_newton(pair.problem, part, np.concatenate([plant, *(own for _, own in components)]), context.origin)
+        alone = corrected(context, replace(pair.screening, hypothesis=part), fitted)
     except SimulationError:
         return None
-    return with_mass_search(context, CandidateFit(replace(pair.screening, hypothesis=part), fitted, True))
+    return with_mass_search(context, alone)
 
 
 def in_order(fitted: FitResult, names: Sequence[str]) -> FitResult:

@@ -22,7 +22,7 @@ from ..hypotheses.effect_hypotheses import Hypothesis, effect_hypotheses, instru
 from ..prediction.parameter_point import ParameterPoint, Predictions
 from ..prediction.replay import coarsening_factor, delayed, relative_to_rest
 from ..settings import HYPOTHESES, SCREENING
-from .linear_screening import ScreenedHypothesis, best_per_effect, orthogonal_response
+from .linear_screening import ScreenedHypothesis, best_per_effect, imitable_responses, orthogonal_response
 
 Floats = NDArray[np.float64]
 
@@ -101,24 +101,24 @@ def _effects_at_sizes(
     before, *after = problem.attempts(fit.point, *points, coarse=coarsening_factor(problem.campaign.model))
     if before is None:
         return
-    unaffected = problem.whitened(before)
+    unaffected, imitable = problem.whitened(before), imitable_responses(problem, fit)
     for (one, k, size), predictions in zip(tried, after, strict=True):
         if predictions is not None:
             change = problem.whitened(predictions) - unaffected
             variants = len(SCREENING.sizes) * sum(other.effect == one.effect for other in known)
-            yield _at_size(problem, fit, one, (k, size, change), variants)
+            yield _at_size(problem, fit, imitable, one, (k, size, change), variants)
 
 
 def _delays(problem: LeastSquaresProblem, fit: FitResult) -> Iterator[ScreenedHypothesis]:
     """A delay of each channel by every time that is tried."""
-    channels = problem.campaign.channels
+    channels, imitable = problem.campaign.channels, imitable_responses(problem, fit)
     faults = [one for one in instrument_hypotheses(channels) if one.effect == "sensor_delay"]
     for one in faults:
         column = one.directions[0].name.split(".", 2)[2]
         for delay in SCREENING.delays:
             change = problem.column(_delayed_less_plain(problem, fit.predictions, column, delay))
             variants = len(SCREENING.delays) * len(faults)
-            yield _at_size(problem, fit, one, (0, delay / HYPOTHESES.delay_unit, change), variants)
+            yield _at_size(problem, fit, imitable, one, (0, delay / HYPOTHESES.delay_unit, change), variants)
 
 
 def _delayed_less_plain(problem: LeastSquaresProblem, predictions: Predictions, column: str, delay: float) -> Predictions:
@@ -132,16 +132,24 @@ def _delayed_less_plain(problem: LeastSquaresProblem, predictions: Predictions, 
 
 
 def _at_size(
-    problem: LeastSquaresProblem, fit: FitResult, one: Hypothesis, at: tuple[int, float, Floats], variants: int
+    problem: LeastSquaresProblem,
+    fit: FitResult,
+    imitable: Floats,
+    one: Hypothesis,
+    at: tuple[int, float, Floats],
+    variants: int,
 ) -> ScreenedHypothesis:
-    """Hypothesis screened about amplitude k at a size, `at` = (k, size, change of the whitened predictions (N,))."""
+    """Hypothesis screened about amplitude k at a size, `at` = (k, size, change of the whitened predictions (N,)).
+
+    `imitable` are the responses that the fit's parameters imitate.
+    """
     k, size, change = at
     others, count = problem.directions(fit.hypothesis), len(one.directions)
     secant = np.outer(change / size, np.arange(count) == k)
     start = np.concatenate([fit.coefficients, size * (np.arange(count) == k)])
     matrix, directions = np.hstack([fit.jacobian, secant]), [*others, *one.directions]
     solution = solve_in_scale(problem.residual(fit.predictions) - change, matrix, directions, start)
-    orthogonal, distinct = orthogonal_response(problem, secant, fit)
+    orthogonal, distinct = orthogonal_response(secant, imitable)
     cost = problem.prior_cost(solution.coefficients)
     return ScreenedHypothesis(
         one, solution.coefficients, solution.chi_square, cost, orthogonal, distinct, variants, sized=True

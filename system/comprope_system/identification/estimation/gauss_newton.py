@@ -17,7 +17,7 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions
 from ..settings import GAUSS_NEWTON
 from .linearisation import linearise, point_at
-from .model_score import penalised_chi_square
+from .model_score import chi_square_resolution, penalised_chi_square
 from .weighted_least_squares import LeastSquaresProblem, Solution, scale_of, solve
 
 Floats = NDArray[np.float64]
@@ -82,8 +82,8 @@ def gauss_newton(
         trusted = iteration >= GAUSS_NEWTON.trusted_iteration
         if solution.chi_square > abandon_above * (1.0 if trusted else GAUSS_NEWTON.hopeless_factor):
             break
-        before = best.cost(scale)
-        enough, predicted = _least_decrease(hypothesis, scale) * scale * count, before - solution.cost
+        enough, before = chi_square_resolution(best.chi_square, count, GAUSS_NEWTON.min_gain), best.cost(scale)
+        predicted = before - solution.cost
         if predicted >= enough:
             # Where updated derivatives lead nowhere, shorter steps along them lead nowhere either.
             shares = GAUSS_NEWTON.step_fractions if fresh else GAUSS_NEWTON.step_fractions[:2]
@@ -98,15 +98,6 @@ def gauss_newton(
             except SimulationError:  # derivatives diverge where the motion itself does not
                 break
     return best
-
-
-def _least_decrease(hypothesis: Hypothesis | None, scale: float) -> float:
-    """Decrease of the cost per datum and mean square of the residual `scale` below which the iteration ends.
-
-    The plant alone, far from the data, need not be fitted closely: an effect is missing, and its parameters are of no use.
-    """
-    far = hypothesis is None and scale > GAUSS_NEWTON.far_from_data
-    return GAUSS_NEWTON.far_decrease if far else GAUSS_NEWTON.min_decrease
 
 
 def fit_on_full_mesh(problem: LeastSquaresProblem, fitted: FitResult, base: ParameterPoint) -> FitResult:

@@ -5,7 +5,7 @@ nothing oscillates that could be out of phase, instead of to another mass (cycle
 and for each mass all other parameters are refitted linearly.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +19,7 @@ from ..prediction.replay import coarsening_factor
 from ..settings import MASS_SEARCH
 from .gauss_newton import FitResult, gauss_newton
 from .linearisation import point_at
+from .model_score import NoiseLevel, log_score
 from .weighted_least_squares import LeastSquaresProblem, Solution, solve_in_scale
 
 Floats = NDArray[np.float64]
@@ -66,32 +67,31 @@ def fits_at_masses(
 def _start_at_better_mass(problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint) -> Floats | None:
     """Coefficients (k,) with a better mass of the rope; None where no other mass promises a sufficient improvement."""
     current = float(initial_fit.coefficients[MASS])
-    here = _refit_linearly(problem, initial_fit, initial_fit.predictions, initial_fit.coefficients)
-    if here.chi_square < MASS_SEARCH.adequate * len(problem.data):
+    k = problem.worst_run(problem.residual(initial_fit.predictions) ** 2)  # one run decides which mass is tried in all
+    own = replace(initial_fit, jacobian=initial_fit.jacobian[problem.rows_of_runs[k]])
+    found = _fits_by_mass(problem.of_run(k), own, base, _mass_grid(current))
+    best = min(found, key=lambda mass: found[mass].cost, default=current)
+    if not promises(found, best, current, problem.rows_of_runs[k].sum()):
         return None
-    found = _fits_of_worst_run(problem, initial_fit, base, _mass_grid(current))
-    best = min(found, key=lambda mass: found[mass].chi_square, default=current)
-    if current not in found or found[best].chi_square > MASS_SEARCH.min_improvement * found[current].chi_square:
-        return None
-    found = _by_mass(fits_at_masses(problem, initial_fit, base, [current, best], coarsening_factor(problem.campaign.model)))
-    if not {current, best} <= set(found) or found[best].chi_square > MASS_SEARCH.min_improvement * found[current].chi_square:
-        return None
-    return found[best].coefficients
+    found = _fits_by_mass(problem, initial_fit, base, [current, best])
+    return found[best].coefficients if promises(found, best, current, len(problem.data)) else None
 
 
-def _fits_of_worst_run(
+def _fits_by_mass(
     problem: LeastSquaresProblem, initial_fit: FitResult, base: ParameterPoint, masses: Sequence[float]
 ) -> dict[float, Solution]:
-    """Linear refits at some masses to the run of which least is explained: one run decides which mass is worth trying in all."""
-    squares = problem.residual(initial_fit.predictions) ** 2
-    k = problem.worst_run(squares)
-    rows = problem.rows_of_runs[k]
-    own = replace(initial_fit, jacobian=initial_fit.jacobian[rows])
-    return _by_mass(fits_at_masses(problem.of_run(k), own, base, masses, coarsening_factor(problem.campaign.model)))
-
-
-def _by_mass(fits: Sequence[tuple[Floats, Predictions, Solution]]) -> dict[float, Solution]:
+    """Linear refits at some masses on the coarse mesh, by mass."""
+    fits = fits_at_masses(problem, initial_fit, base, masses, coarsening_factor(problem.campaign.model))
     return {float(x[MASS]): solution for x, _, solution in fits}
+
+
+def promises(found: Mapping[float, Solution], mass: float, current: float, count: int) -> bool:
+    """Whether the linear refits to `count` data promise a better score at another mass, priors included."""
+    if mass == current or not {mass, current} <= set(found):
+        return False
+    noise = NoiseLevel.of_fits(count, [found[mass].chi_square])
+    gain = log_score(found[mass].cost, noise) - log_score(found[current].cost, noise)
+    return gain > MASS_SEARCH.min_gain
 
 
 def _mass_grid(current: float) -> list[float]:

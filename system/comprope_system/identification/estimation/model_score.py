@@ -56,6 +56,12 @@ def least_noticed(chi_square: float, noise: NoiseLevel, cost: float) -> float:
     return noise.explained + noise.reduced * (raised - SCORE.effective_samples) - chi_square
 
 
+def chi_square_resolution(chi_square: float, count: int, gain: float) -> float:
+    """Decrease of the chi-square of `count` data by which the log score rises by `gain`: a share of it far from the data."""
+    noise = NoiseLevel.of_fits(count, [chi_square])
+    return 2.0 * gain * noise.reduced * (1.0 + noise.discrepancy(chi_square) / SCORE.effective_samples)
+
+
 def complexity_penalty(hypothesis: Hypothesis, alternatives: int) -> float:
     """Penalty for the parameters of a hypothesis, for the phases of single runs, and for the choice among `alternatives`."""
     phases = sum(len(part.phase_runs) for part in hypothesis.parts or (hypothesis,))

@@ -49,8 +49,12 @@ class LeastSquaresProblem:
         factor = coarsening_factor(self.campaign.model)
         if factor == 1.0 or (on_coarse_mesh := self.attempts(point, coarse=factor)[0]) is None:
             return self
+        return self.corrected(factor, on_coarse_mesh, predictions)
+
+    def corrected(self, coarse: float, on_coarse_mesh: Predictions, predictions: Predictions) -> "LeastSquaresProblem":
+        """The same problem on a mesh that is `coarse` times as long, with `data` corrected by how both predictions differ."""
         change = self.whitened(on_coarse_mesh) - self.whitened(predictions)
-        return replace(self, data=self.data + change, coarse=factor)
+        return replace(self, data=self.data + change, coarse=coarse)
 
     @cached_property
     def plant(self) -> tuple[Direction, ...]:
@@ -152,6 +156,7 @@ def solve(residual: Floats, matrix: Floats, directions: Sequence[Direction], sta
     Minimises |residual - matrix (x - start)|^2 + scale |x / prior|^2. `scale` is the mean square of e: a model with a large
     error lends its priors more weight.
     """
+    matrix, residual = compressed(matrix, residual)
     prior = np.array([one.prior for one in directions])
     rows = np.vstack([matrix, np.diag(scale**0.5 / prior)])
     target = np.concatenate([residual + matrix @ start, np.zeros(len(prior))])
@@ -166,8 +171,18 @@ def solve(residual: Floats, matrix: Floats, directions: Sequence[Direction], sta
 
 def solve_in_scale(residual: Floats, matrix: Floats, directions: Sequence[Direction], start: Floats) -> Solution:
     """As `solve`, with the mean square of the residual that a first estimate leaves as `scale`."""
+    count = len(residual)
+    matrix, residual = compressed(matrix, residual)
     sharp = solve(residual, matrix, directions, start)
-    return solve(residual, matrix, directions, start, scale_of(sharp.chi_square, len(residual)))
+    return solve(residual, matrix, directions, start, scale_of(sharp.chi_square, count))
+
+
+def compressed(matrix: Floats, residual: Floats) -> tuple[Floats, Floats]:
+    """Matrix (k + 1, k) and residual (k + 1,) of the same sum of squares for all coefficients: an orthogonal transform."""
+    if len(residual) <= matrix.shape[1] + 1:
+        return matrix, residual
+    triangle = np.asarray(np.linalg.qr(np.column_stack([matrix, residual]), mode="r"))
+    return triangle[:, :-1], triangle[:, -1]
 
 
 def scale_of(chi_square: float, count: int) -> float:
