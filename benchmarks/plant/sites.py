@@ -125,4 +125,44 @@ HIGH120 = Site(
     every=3,
     encoder=1e-3,
 )  # fmt: skip
-SITES = {site.name: site for site in (TOWER50, OFFICE28, HIGH120)}
+CLINIC20 = Site(
+    "clinic20", "20 m hospital wing",
+    Tower(
+        height=20.0, pit=1.0, mass_per_length=0.85, diameter=0.016, EA=6.0e6, EI=14.0, axial_damping=1.5e3, bending_damping=0.07,
+        sheave_mass=90.0, radius=0.36, inertia=5.8, contact_stiffness=1.0e7, contact_damping=6.0e3,
+    ),
+    Limits(1.0, 0.6, 0.8, rest=2.0, after=8.0),
+    runs={
+        "r1": Run(0.5, 18.0, 1.0), "r2": Run(17.0, 1.5, 1.0), "r3": Run(2.0, 16.5, 0.6),
+        "r4": Run(15.0, 3.0, 0.8, "validate"),
+    },
+    sensors={"bay_cw": (1.0, 0.9), "bay_car": (-1.0, 0.3)},
+    channels={
+        "bay_cw": laser("bay_cw", 0.15),
+        "bay_car": laser("bay_car", 0.15),
+        "axle": Channel("sheave_displacement", "axle", "mm", 1e3, 0.03),
+        "omega": Channel("sheave_angular_velocity", "omega", "rad/s", 1.0, 0.015, "absolute"),
+    },
+    every=4,
+)  # fmt: skip
+HOTEL75 = Site(
+    "hotel75", "75 m hotel",
+    Tower(
+        height=75.0, pit=1.8, mass_per_length=1.4, diameter=0.02, EA=1.0e7, EI=30.0, axial_damping=2.5e3, bending_damping=0.15,
+        sheave_mass=180.0, radius=0.45, inertia=18.0, contact_stiffness=1.3e7, contact_damping=9.0e3,
+    ),
+    Limits(3.5, 0.9, 0.9, rest=3.0, after=8.0),
+    runs={
+        "north": Run(5.0, 70.0, 1.0), "south": Run(60.0, 1.0, 0.75), "light": Run(12.0, 68.0, 0.55),
+        "held": Run(50.0, 8.0, 0.55, "validate"),
+    },
+    sensors={"p1": (1.0, 0.8), "p2": (1.0, 9.0), "p3": (-1.0, 2.5)},
+    channels={
+        **{name: laser(name, 0.25) for name in ("p1", "p2", "p3")},
+        "axle": Channel("sheave_displacement", "axle", "mm", 1e3, 0.03),
+        "rev": Channel("sheave_angular_velocity", "omega", "rpm", 30.0 / np.pi, 0.12, "absolute"),
+    },
+    every=4,
+    encoder=8e-4,
+)  # fmt: skip
+SITES = {site.name: site for site in (TOWER50, OFFICE28, HIGH120, CLINIC20, HOTEL75)}
