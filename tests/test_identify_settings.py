@@ -13,11 +13,13 @@ ROOT = Path(identification.__file__).parent
 ALLOWED = {
     ("residuals/force_probe_effect.py", "MOST"),  # bound of a declared quantity, in a file that stands alone as a user's effect
     # The layout of printed text and pages:
-    ("reporting/formatting.py", "WIDTH"),
-    ("reporting/formatting.py", "ZERO"),
+    ("reporting/texts/formatting.py", "WIDTH"),
+    ("reporting/texts/formatting.py", "ZERO"),
     ("reporting/run_curves.py", "BAND"),
     ("reporting/tables.py", "SHOWN"),
-    ("reporting/diagnosis_page.py", "RUNS_SHOWN"),
+    ("reporting/pages/diagnosis.py", "RUNS_SHOWN"),
+    ("reporting/pages/evidence.py", "LEAST"),
+    ("reporting/pages/evidence.py", "SHOWN"),
     ("result/diagnosis.py", "RUNS"),
 }
 
