@@ -1,4 +1,4 @@
-"""Derivatives over a communication step: by repeating it from a saved state, as an importer can, they are those of the tangent."""
+"""Derivatives over a communication step, by repeating it from a saved state as an importer can, are those of the tangent."""
 
 from collections.abc import Iterator
 
@@ -76,7 +76,8 @@ def by_tangent(importer: Importer, name: str) -> np.ndarray:
     sensitive.rope.state.from_bytes(simulator.rope.state.to_bytes())
     sensitive.step(DT, paths[0], (paths[1] - paths[2])[None] / (2.0 * MOVES[name]))
     forces, sheave = sensitive.forces(), sensitive.sheave()["sheave_displacement"]
-    return np.array([*forces["car_end_tension"], *forces["counterweight_end_tension"], *sheave, sensitive.lateral_displacement()[0, 0]])
+    tensions = [forces[name][0] for name in ("car_end_tension", "counterweight_end_tension")]
+    return np.array([*tensions, sheave[0], sensitive.lateral_displacement()[0, 0]])
 
 
 @pytest.mark.parametrize("name", MOVES)
