@@ -61,7 +61,7 @@ def test_each_effect_of_a_pair_is_fitted_alone_from_what_it_is_in_the_pair(monke
         return replace(fit(hypothesis, alone[hypothesis.effect]), coefficients=start)
 
     monkeypatch.setattr(pair_fits, "gauss_newton", fitted_alone)
-    monkeypatch.setattr(pair_fits, "corrected", lambda context, one, fitted: candidate(one, fitted))
+    monkeypatch.setattr(pair_fits, "corrected_by_full_mesh", lambda context, one, fitted: candidate(one, fitted))
     monkeypatch.setattr(pair_fits, "with_mass_search", lambda context, one: one)
     context = FitContext(None, None, ParameterPoint(), fit(HYSTERESIS, 900.0), lambda stage: None)
     pair = candidate(screened(BEARING), fit(combine(HYSTERESIS, BEARING), 5.0))

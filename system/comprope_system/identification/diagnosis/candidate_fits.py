@@ -19,7 +19,7 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
 from ..progress import ProgressCallback
 from ..settings import CANDIDATES, MASS_SEARCH
-from .linear_screening import ScreenedHypothesis, indistinguishable
+from .linear_screening import ScreenedHypothesis
 
 
 class CandidateFit(NamedTuple):
@@ -65,76 +65,6 @@ class FitContext:
     report_progress: ProgressCallback
 
 
-def fit_candidates(context: FitContext, screened: Sequence[ScreenedHypothesis]) -> list[CandidateFit]:
-    """Fits of all screened effects, the promising ones on the full model.
-
-    Screening alone does not decide: whichever effect leads is fitted on the full model until the leader is such a fit.
-    """
-    baseline = context.baseline
-    found = [_from_screening(context, one) for one in screened]
-    worthwhile = CANDIDATES.min_improvement * len(context.problem.data)
-    least = max(CANDIDATES.min_share * _improvement(found[0], baseline), worthwhile)
-    for k, one in enumerate(screened[: CANDIDATES.max_fits]):
-        if _improvement(found[k], baseline) > least and _may_win(found[k], baseline, found):
-            found[k] = fit_on_full_model(context, one, found)
-    leader, gain = _leader(context, found)
-    while not found[leader].refined and gain > 0.0:
-        found[leader] = fit_on_full_model(context, screened[leader], found)
-        leader, gain = _leader(context, found)
-    if found[leader].refined:
-        _fit_indistinguishable(context, screened, found, leader)
-    return found
-
-
-def refit_from_other_masses(
-    context: FitContext, screened: Sequence[ScreenedHypothesis], found: Sequence[CandidateFit]
-) -> list[CandidateFit]:
-    """The candidate fits, the best one and those screened at other masses replaced by fits from there where these are better.
-
-    `screened` are effects screened at other masses, most promising first.
-    """
-    fits = {one.hypothesis.effect: one for one in found}
-    if (best := min((one for one in found if one.refined), key=lambda one: one.fitted.chi_square, default=None)) is not None:
-        fits[best.hypothesis.effect] = with_mass_search(context, best)
-    for one in screened[: CANDIDATES.max_mass_fits]:
-        if one.chi_square < CANDIDATES.mass_improvement * least_chi_square(fits.values(), context.baseline.chi_square):
-            fit = with_mass_search(context, fit_on_full_model(context, one, list(fits.values())))
-            known = fits.setdefault(one.hypothesis.effect, fit)
-            fits[one.hypothesis.effect] = min(known, fit, key=lambda other: other.fitted.chi_square)
-    return list(fits.values())
-
-
-def best_on_full_mesh(
-    context: FitContext, found: Sequence[CandidateFit], known: list[tuple[FitResult, CandidateFit]]
-) -> list[CandidateFit]:
-    """The candidate fits, those with a chance to be the verdict on the full mesh.
-
-    `known` collects each fit on the coarse mesh with the one that continues it, so that none is continued twice.
-    """
-    if context.problem.coarse == context.full_problem.coarse:
-        return list(found)
-    noise = noise_level(context, found)
-    top = max((one.log_score(noise) for one in found), default=0.0)
-    promising = [one for one in found if one.refined and one.log_score(noise) > top - CANDIDATES.close_score]
-    known += [(one.fitted, _on_full_mesh(context, one)) for one in promising if _continued(one, known) is None]
-    return [_continued(one, known) or one for one in found]
-
-
-def _continued(one: CandidateFit, known: Sequence[tuple[FitResult, CandidateFit]]) -> CandidateFit | None:
-    """The continuation of this very fit among `known`."""
-    return next((finished for fitted, finished in known if fitted is one.fitted), None)
-
-
-def _on_full_mesh(context: FitContext, one: CandidateFit) -> CandidateFit:
-    """The candidate fit on the full mesh; unchanged where the model cannot be simulated there."""
-    context.report_progress(f"{one.hypothesis.effect}: fit on the full mesh")
-    coarse = one.fitted
-    try:
-        return one._replace(fitted=gauss_newton(context.full_problem, coarse.hypothesis, coarse.coefficients, context.origin))
-    except SimulationError:
-        return one
-
-
 def noise_level(context: FitContext, found: Iterable[CandidateFit]) -> NoiseLevel:
     """The noise as the plant's fit and the fits of effects on the full model tell it."""
     fits = [context.baseline, *(one.fitted for one in found if one.refined)]
@@ -176,7 +106,7 @@ def fit_on_full_model(context: FitContext, one: ScreenedHypothesis, found: Seque
         if not one.sized:
             start = best_initial_guess(problem, one.hypothesis, start, origin, baseline, expected=one.chi_square)
         fitted = gauss_newton(problem, one.hypothesis, start, origin, abandon_above)
-        found_here = corrected(context, one, fitted, abandon_above)
+        found_here = corrected_by_full_mesh(context, one, fitted, abandon_above)
     except SimulationError:
         absent = np.concatenate([baseline.coefficients[: len(PLANT_PARAMETERS)], np.zeros(len(one.hypothesis.directions))])
         fitted = replace(baseline, hypothesis=one.hypothesis, coefficients=absent)
@@ -186,7 +116,7 @@ def fit_on_full_model(context: FitContext, one: ScreenedHypothesis, found: Seque
     return found_here
 
 
-def corrected(
+def corrected_by_full_mesh(
     context: FitContext, one: ScreenedHypothesis, fitted: FitResult, abandon_above: float = float("inf")
 ) -> CandidateFit:
     """A fit on the coarse mesh with what the full mesh leaves at its point, and with its shape parameters fitted there.
@@ -202,51 +132,9 @@ def corrected(
     return CandidateFit(one, free_shape_parameters(problem, context.origin, fitted, abandon_above), True, problem, rough)
 
 
-def _fit_indistinguishable(
-    context: FitContext, screened: Sequence[ScreenedHypothesis], found: list[CandidateFit], leader: int
-) -> None:
-    """Fit in `found` the effects with a response similar to the leader's: screening may have misjudged one of them."""
-    for k, one in enumerate(screened):
-        if not found[k].refined and indistinguishable(one, screened[leader]):
-            found[k] = fit_on_full_model(context, one, found)
-
-
 def with_mass_search(context: FitContext, one: CandidateFit) -> CandidateFit:
     """The candidate fit from a better mass of the rope, if there is one, with shape parameters fitted again."""
     moved = search_rope_mass(one.problem, one.fitted, context.origin)
     if moved is one.fitted:
         return one
     return one._replace(fitted=free_shape_parameters(one.problem, context.origin, moved))
-
-
-def _from_screening(context: FitContext, one: ScreenedHypothesis) -> CandidateFit:
-    """Fit that screening predicts."""
-    fitted = replace(
-        context.baseline, hypothesis=one.hypothesis, coefficients=one.start, chi_square=one.chi_square, prior_cost=one.prior_cost
-    )
-    return CandidateFit(one, fitted, False, context.problem, one.chi_square)
-
-
-def _improvement(one: CandidateFit, baseline: FitResult) -> float:
-    """Decrease of the penalised chi-square by an effect."""
-    return baseline.penalised_chi_square - one.fitted.penalised_chi_square
-
-
-def _may_win(one: CandidateFit, baseline: FitResult, found: Sequence[CandidateFit]) -> bool:
-    """Whether an effect that improves half as much again as screening predicts would come near the best fit so far."""
-    at_best = one.fitted.penalised_chi_square - CANDIDATES.optimism * _improvement(one, baseline)
-    best = min((fit.fitted.penalised_chi_square for fit in found if fit.refined), default=baseline.penalised_chi_square)
-    return at_best < CANDIDATES.near_factor * best
-
-
-def _leader(context: FitContext, found: Sequence[CandidateFit]) -> tuple[int, float]:
-    """Number of the candidate with the highest score, and its score above that of the plant alone.
-
-    Fits that are only predicted tell the noise as well: what is small shows in noise that is known with the effect.
-    """
-    baseline = context.baseline
-    noise = NoiseLevel.of_fits(
-        len(context.problem.data), (baseline.chi_square, *(one.fitted.chi_square for one in found))
-    )
-    leader = max(range(len(found)), key=lambda k: found[k].log_score(noise))
-    return leader, found[leader].log_score(noise) - log_score(baseline.chi_square, noise, baseline.prior_cost)

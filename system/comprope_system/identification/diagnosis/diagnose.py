@@ -21,15 +21,8 @@ from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
 from ..progress import ProgressCallback, no_progress
 from ..settings import CANDIDATES, SCORE, SCREENING, VERDICT
-from .candidate_fits import (
-    CandidateFit,
-    FitContext,
-    best_on_full_mesh,
-    fit_candidates,
-    least_chi_square,
-    noise_level,
-    refit_from_other_masses,
-)
+from .candidate_fits import CandidateFit, FitContext, least_chi_square, noise_level
+from .candidate_selection import FullMeshFits, fit_candidates, refit_from_other_masses
 from .linear_screening import ScreenedHypothesis, indistinguishable, screen_at_other_masses, screen_hypotheses
 from .pair_fits import fit_pair, with_single_fits
 from .size_screening import screen_at_sizes, with_sizes
@@ -110,16 +103,16 @@ def diagnose(
         about = (baseline,) if close else (baseline, initial_fit)
         screened = with_sizes(screened, screen_at_sizes(problem, origin, about))
     found = fit_candidates(context, screened)
-    on_full_mesh: list[tuple[FitResult, CandidateFit]] = []
-    finished = best_on_full_mesh(context, found, on_full_mesh)
+    full_mesh_fits = FullMeshFits(context)
+    finished = full_mesh_fits.with_best_finished(found)
     if least_chi_square(finished, baseline.chi_square) > CANDIDATES.mass_threshold * len(problem.data):
         report_progress("linear screening at other masses of the rope")
         found = refit_from_other_masses(context, screen_at_other_masses(rough, origin, on_coarse_mesh), found)
-        finished = best_on_full_mesh(context, found, on_full_mesh)
+        finished = full_mesh_fits.with_best_finished(found)
     diagnosis = _assembled(context, campaign, nominal, finished)
     if diagnosis.kind == "unknown_effect" and (pair := fit_pair(context, found)):
         found = with_single_fits(context, found, pair)
-        return _assembled(context, campaign, nominal, best_on_full_mesh(context, found, on_full_mesh))
+        return _assembled(context, campaign, nominal, full_mesh_fits.with_best_finished(found))
     return diagnosis
 
 

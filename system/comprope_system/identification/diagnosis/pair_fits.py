@@ -12,7 +12,7 @@ from ..hypotheses.effect_hypotheses import Hypothesis, combine
 from ..hypotheses.model_effects import components_by_effect, effect_name
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..settings import CANDIDATES
-from .candidate_fits import CandidateFit, FitContext, corrected, with_mass_search
+from .candidate_fits import CandidateFit, FitContext, corrected_by_full_mesh, with_mass_search
 from .linear_screening import ScreenedHypothesis, screen_hypotheses
 
 
@@ -33,7 +33,7 @@ def _fit_together(context: FitContext, first: CandidateFit, second: ScreenedHypo
     both = combine(first.hypothesis, second.hypothesis)
     context.report_progress(f"{both.effect}: fit on the full model")
     try:
-        return corrected(context, second, gauss_newton(first.problem, both, second.start, context.origin))
+        return corrected_by_full_mesh(context, second, gauss_newton(first.problem, both, second.start, context.origin))
     except SimulationError:
         return None
 
@@ -66,7 +66,7 @@ def _alone(
     plant = pair.fitted.coefficients[: len(PLANT_PARAMETERS)]
     try:
         fitted = gauss_newton(pair.problem, part, np.concatenate([plant, *(own for _, own in components)]), context.origin)
-        alone = corrected(context, replace(pair.screening, hypothesis=part), fitted)
+        alone = corrected_by_full_mesh(context, replace(pair.screening, hypothesis=part), fitted)
     except SimulationError:
         return None
     return with_mass_search(context, alone)
