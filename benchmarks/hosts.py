@@ -1,10 +1,11 @@
-"""A native FMU in a host without Python: under sanitizers, under valgrind, and its Windows binary under wine.
+"""A native FMU in a host without Python: under sanitizers and valgrind, for ARM in qemu, for Windows in wine.
 
     python benchmarks/hosts.py dist/CompensationRope_native.fmu [dist/CompensationRope_native_fmi3.fmu]
     python benchmarks/hosts.py dist/ElevatorDrive_native.fmu [dist/ElevatorDrive_native_fmi3.fmu]
 
 The host is for FMI 2.0. The C sources compiled under sanitizers also take random calls from Python, for each FMU given.
-Needs gcc (its address and undefined-behaviour sanitizers); valgrind if it is there, and for Windows ziglang and wine64.
+Needs gcc (its address and undefined-behaviour sanitizers); valgrind if it is there; ziglang and, for ARM, qemu-aarch64
+with a C library in QEMU_LIBRARIES, for Windows wine64.
 """
 
 import importlib.util
@@ -33,6 +34,7 @@ HOST = Path(__file__).parent.parent / "tests" / "native_host.c"
 SCENARIOS = {"cycle": 50, "threads": 5, "states": 1, "wrong": 1, "memory": 1}
 RIDE = 400  # steps of 10 ms
 WINE = ("wine64", "/usr/lib/wine/wine64")
+QEMU, QEMU_LIBRARIES = "qemu-aarch64", "/usr/aarch64-linux-gnu"  # Debian's qemu-user and libc6-arm64-cross
 SANITIZED = "sanitized"  # GUID and instantiation token
 CALLS = 5_000
 _SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1", "-std=c11")
@@ -119,6 +121,20 @@ def unpacked(fmu: str, stage: Path, target: str) -> str:
         return archive.extract(f"binaries/{place.folder}/{Path(fmu).name.partition('_')[0]}.{place.extension}", stage)
 
 
+def in_qemu(fmu: str, stage: Path) -> Iterator[tuple[str, str]]:
+    """Every scenario but threads with the binary of the FMU for ARM, and a ride beside that of the x86-64 binary."""
+    binary, host, guid = unpacked(fmu, stage, "linux-arm64"), str(stage / "arm"), read_model_description(fmu).guid
+    zig = [sys.executable, "-m", "ziglang", "cc", "-target", TARGETS["linux-arm64"].zig]
+    libraries = ["-ldl", "-lpthread", "-lm"]
+    subprocess.run([*zig, "-std=c11", "-O1", f"-I{linker.HEADERS}", str(HOST), "-o", host, *libraries], check=True)
+    emulated = [QEMU, "-L", QEMU_LIBRARIES, host]
+    for scenario in ("cycle", "states", "wrong", "memory"):
+        yield scenario, run([*emulated, scenario, *arguments(fmu, guid, binary, SCENARIOS[scenario])])
+    there = run([*emulated, "ride", *arguments(fmu, guid, binary, RIDE)], line=0)
+    here = run([str(stage / "host"), "ride", *arguments(fmu, guid, unpacked(fmu, stage, "linux"), RIDE)], line=0)
+    yield "ride of 4 s", f"{there}, on x86-64 {here}"
+
+
 def in_wine(fmu: str, stage: Path, wine: str) -> Iterator[tuple[str, str]]:
     """Every scenario but threads with the Windows binary of the FMU, and a ride beside that of the Linux binary."""
     binary = unpacked(fmu, stage, "windows")
@@ -146,7 +162,11 @@ def main() -> None:
         if shutil.which("valgrind"):
             for scenario, outcome in in_valgrind(fmu, Path(folder)):
                 print(f"| Linux, valgrind | {scenario} | {outcome} |", flush=True)
-        if wine and importlib.util.find_spec("ziglang"):
+        zig = importlib.util.find_spec("ziglang")
+        if zig and shutil.which(QEMU) and Path(QEMU_LIBRARIES).is_dir():
+            for scenario, outcome in in_qemu(fmu, Path(folder)):
+                print(f"| Linux arm64 binary in qemu | {scenario} | {outcome} |", flush=True)
+        if wine and zig:
             for scenario, outcome in in_wine(fmu, Path(folder), wine):
                 print(f"| Windows binary in wine | {scenario} | {outcome} |", flush=True)
 
