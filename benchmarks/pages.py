@@ -1,13 +1,17 @@
 """Size, time to open, and look of the pages; makes docs/trip.png and the pictures of docs/pages anew.
 
     python benchmarks/pages.py CAMPAIGN EFFECT [--only trip compare diagnose add design tune] [--out docs]
+    python benchmarks/pages.py --measure PAGE.html ... [--out docs]
 
 CAMPAIGN is a folder with campaign.toml, EFFECT the one that `add` adds. Needs Chromium. The time to open is that from the start
-of the navigation to the end of the load event, when all curves that are switched on are drawn; the least of three.
+of the navigation to the end of the load event, when all curves that are switched on are drawn; the least of three. --measure
+measures pages that are there, and shows the last one wide and narrow, light and dark, in docs/pages/looks.png.
 """
 
 import argparse
 import contextlib
+import io
+import itertools
 import re
 import shutil
 import subprocess
@@ -25,6 +29,7 @@ from comprope_system import DesignOptions, TuningOptions
 
 DOCS = Path(__file__).parent.parent / "docs"
 WIDTH, HEIGHT, COLOURS = 1000, 1500, 96  # of a picture in pixels, and of its palette
+LOOKS_HEIGHT = 1400  # of a window in pixels
 TIMED = """<script>
 addEventListener("load", () => setTimeout(() => { document.title = `opened ${performance.now()}`; }));
 </script></body>"""
@@ -59,6 +64,22 @@ def time_to_open(page: Path) -> float:
 
 
 
+def looks(page: Path, file: Path) -> None:
+    """A page in windows of 1400 and 700 pixels, light and dark, side by side at half their size."""
+    shots = []
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
+        for width, scheme in itertools.product((1400, 700), ("light", "dark")):
+            shown = browser.new_page(viewport={"width": width, "height": LOOKS_HEIGHT}, color_scheme=scheme)
+            shown.goto(page.as_uri())
+            shown.wait_for_timeout(500)
+            with Image.open(io.BytesIO(shown.screenshot())) as shot:
+                shots.append(shot.convert("RGB").resize((width // 2, LOOKS_HEIGHT // 2), Image.Resampling.LANCZOS))
+        browser.close()
+    whole = Image.new("RGB", (sum(one.width for one in shots), LOOKS_HEIGHT // 2))
+    for k, one in enumerate(shots):
+        whole.paste(one, (sum(other.width for other in shots[:k]), 0))
+    whole.quantize(2 * COLOURS).save(file, optimize=True)
 
 
 def frame_times(frame: Any) -> str:
@@ -91,6 +112,11 @@ def picture(page: Path, file: Path) -> None:
 def report(name: str, page: Path, out: Path) -> None:
     """Print a row of the table and write the picture."""
     picture(page, out / "pages" / f"{name}.png")
+    measured(name, page)
+
+
+def measured(name: str, page: Path) -> None:
+    """Print a row of the table."""
     print(f"| {name} | {page.stat().st_size / 1e6:.2f} MB | {time_to_open(page):.2f} s | {slider_times(page)} |", flush=True)
 
 
@@ -115,11 +141,19 @@ def makers(campaign: str, effect: str, out: Path) -> dict[str, Callable[[Path], 
 def main() -> None:
     """Make the pages."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("campaign")
-    parser.add_argument("effect")
+    parser.add_argument("campaign", nargs="?")
+    parser.add_argument("effect", nargs="?")
+    parser.add_argument("--measure", nargs="+", type=Path)
     parser.add_argument("--only", nargs="+")
     parser.add_argument("--out", type=Path, default=DOCS)
     given = parser.parse_args()
+    if given.measure:
+        for page in given.measure:
+            measured(page.stem, page.resolve())
+        looks(given.measure[-1].resolve(), given.out / "pages" / "looks.png")
+        return
+    if not given.effect:
+        parser.error("CAMPAIGN and EFFECT are needed, or --measure")
     campaign, out = Path(given.campaign).resolve(), given.out.resolve()
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(campaign.parent):  # pages name the campaign as it is given
         for name, make in makers(campaign.name, given.effect, out).items():

@@ -328,6 +328,7 @@ told.printed = width();
 dispatchEvent(new Event("afterprint"));
 told.restored = width() === before;
 told.wide = document.documentElement.scrollWidth;
+told.cut = [...document.querySelectorAll(".scroll:has(.heat)")].filter((one) => one.scrollWidth > one.clientWidth).length;
 """
 
 
@@ -336,7 +337,7 @@ told.wide = document.documentElement.scrollWidth;
 def test_a_browser_draws_zooms_and_reads_the_curves(comparison, page, width):
     told = played(page, USE, width)
     worst, run, data = largest_error(comparison), comparison.runs[1], data_of(page)["groups"][1]
-    assert [one.split(" (")[0] for one in told["first"]] == [worst.file]
+    assert [one.split(" (")[0] for one in told["first"]] == [worst.file] and told["cut"] == 0
     assert told["visited"] and told["plots"] == 2 * len(run.channels)
     cruise = next(one for one in data["spans"] if one["name"] == "cruise")
     assert (
