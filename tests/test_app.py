@@ -3,6 +3,7 @@
 import asyncio
 import os
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,8 @@ from typer.main import get_command
 
 import comprope_system
 from comprope.errors import InputError, SimulationError
-from comprope_system.app import routes
+from comprope.rope.model_file import dump, load, with_changes
+from comprope_system.app import computations, replays, routes
 from comprope_system.app.desk import Desk
 from comprope_system.app.remembering_executor import RememberingExecutor
 from comprope_system.app.server import make_app
@@ -20,7 +22,10 @@ from comprope_system.app.workspace import Workspace, fingerprint, new_result, wr
 from comprope_system.campaign_setup.column_roles import Role
 from comprope_system.campaign_setup.corrections import Corrections
 from comprope_system.cli import app, main
+from comprope_system.identification.comparison.compare import compare
+from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.measurements.campaign_file import read_campaign_file
+from comprope_system.parallel.executors import threads
 
 from . import virtual_elevator
 
@@ -164,6 +169,23 @@ def test_a_fit_from_a_setting_that_nobody_previewed_is_refused(client, private):
     asked = {"name": "add", "effect": "air_drag", "values": [1.0]}
     found = client.post(f"/jobs?token={TOKEN}", json=asked, headers=OWN)
     assert found.status_code == 422 and found.json()["error"] == "air_drag: there is no preview of it; diagnose first"
+
+
+def test_effects_of_the_model_are_replayed_where_the_comparison_shows_them(tmp_path):
+    folder = virtual_elevator.campaign(tmp_path / "campaign", {"effects.bearing_friction.coulomb_torque": 15.0})
+    model, results, key = load(folder / "elevator.toml"), tmp_path / "results", "effects.bearing_friction.coulomb_torque"
+    dump(with_changes(model, {key: 10.0}), folder / "elevator.toml")
+    computations.compare(folder, results)
+    found = replays.replay(results, "compare", "bearing_friction", [14.0])  # N m
+    campaign = replace(load_campaign(folder), model=with_changes(model, {key: 14.0}))
+    with threads() as workers:
+        truth = compare(campaign, workers)
+    assert found["errors"] == pytest.approx({"fit": truth.fit_nrmse, "validate": truth.validate_nrmse}, rel=1e-9)
+    assert set(found["curves"]) == {run.file for run in campaign.runs}
+    with pytest.raises(InputError, match="there is no preview of it; compare first"):
+        replays.replay(results, "compare", "air_drag", [1.0])
+    with pytest.raises(InputError, match="compare, diagnose are accepted"):
+        replays.replay(results, "../../etc", "air_drag", [1.0])
 
 
 # -- nothing by halves -------------------------------------------------------------------------------------
