@@ -59,7 +59,7 @@ def time_to_open(page: Path) -> float:
     """Seconds from the start of the navigation to the end of the load event."""
     timed = page.with_name(f"{page.stem}_timed.html")
     timed.write_text(page.read_text(encoding="utf-8").replace("</body>", TIMED), encoding="utf-8")
-    found = [re.search(r"<title>opened ([\d.]+)", browser(timed, "--timeout=5000", "--dump-dom")) for _ in range(3)]
+    found = [re.search(r"<title>opened ([\d.]+)", browser(timed, "--timeout=30000", "--dump-dom")) for _ in range(3)]
     return min(float(one[1]) for one in found if one) / 1e3
 
 
