@@ -123,7 +123,7 @@ def test_no_way_takes_no_time_however_it_is_shaped() -> None:
 def test_the_simulator_follows_a_shaped_trajectory_and_restarts_in_it() -> None:
     names = {"profile.smoothing": 0.5, "shaper.impulses": 2.0, "trip.destination": 4.0}
     names |= {f"curve.a{k}": value for k, value in enumerate(SHARES, 1)}
-    inputs = {"destination": 4.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0}
+    inputs = {"destination": 4.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0, "brake": 0.0, "safety_gear": 0.0}
     one, two = (create(names, inputs, 0.0) for _ in range(2))
     one.step(0.0, 3.0, inputs)
     two.set_state(one.get_state())
@@ -146,7 +146,7 @@ def test_the_simulator_follows_a_shaped_trajectory_and_restarts_in_it() -> None:
 )
 def test_impossible_shapes_are_refused_with_a_sentence(parameters: dict[str, float], text: str) -> None:
     with pytest.raises(InputError) as caught:
-        create(parameters, {"destination": 50.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0}, 0.0)
+        create(parameters, {one.name: one.start for one in interface().of_role("input")}, 0.0)
     assert text in str(caught.value)
 
 

@@ -19,8 +19,8 @@ from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError, SimulationError
 from comprope.fmi.validation import interface_problems
 
-STILL = {"destination": 50.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0}
-ROPES = {"destination": 50.0, "car_end_tension": 1250.0, "counterweight_end_tension": 660.0}
+STILL = {"destination": 50.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0, "brake": 0.0, "safety_gear": 0.0}
+ROPES = {"destination": 50.0, "car_end_tension": 1250.0, "counterweight_end_tension": 660.0, "brake": 0.0, "safety_gear": 0.0}
 
 
 def simulator(inputs: Mapping[str, Any] = STILL, start_time: float = 0.0, **parameters: float) -> DriveSimulator:

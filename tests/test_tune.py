@@ -130,7 +130,7 @@ def test_a_light_sheave_is_refused_with_what_is_accepted(capsys) -> None:
 def test_the_car_bounces_as_the_drive_s_own() -> None:
     trip = FirstTrip(destination=6.0)
     drive = Drive(trip=trip, profile=Profile(jerk=8.0), rope=CompensationRopes(count=0.0))
-    still = {"destination": 6.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0}
+    still = {"destination": 6.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0, "brake": 0.0, "safety_gear": 0.0}
     simulator, trajectory, dt = DriveSimulator(drive, still, 0.0), first_trajectory(drive), 0.02
     motion = sample_motion(trajectory, 10.0, dt)
     samples = []

@@ -12,6 +12,7 @@ from .control.servo_control import design_servo
 from .control.stability_margins import unstable_positions
 from .kernels.arguments import (
     CLOCK,
+    EMERGENCY,
     FEEDFORWARD,
     GAIN,
     GAINS,
@@ -37,7 +38,7 @@ from .parameters import Drive
 from .status import MESSAGES, UNSTABLE
 from .variables import FLAGS, INPUTS, REAL_OUTPUTS
 
-_MARK = b"drive 2\0"
+_MARK = b"drive 3\0"
 
 
 class DriveSimulator:
@@ -125,7 +126,7 @@ def python_control_design(drive: Drive) -> Design:
 
 def empty_state() -> State:
     """A state of zeros."""
-    return State(np.zeros(CLOCK), np.zeros(SERVO), np.zeros(TRIP), np.zeros(ROW))
+    return State(np.zeros(CLOCK), np.zeros(SERVO), np.zeros(TRIP), np.zeros(ROW), np.zeros(EMERGENCY))
 
 
 def empty_design(points: int) -> Design:

@@ -6,8 +6,8 @@ from ..kernels.status import Messages
 (
     SMOOTHING_TOO_SHORT, DOES_NOT_STOP, REVERSES, NOT_WHOLE, START_OUTSIDE, DESTINATION_OUTSIDE, BOTH_OUTSIDE, CAR_NOT_FINITE,
     COUNTERWEIGHT_NOT_FINITE, CALL_OUTSIDE, TOO_EARLY, TOO_WEAK, UNSTABLE, UNSTABLE_AT_TWO, UNSTABLE_AT_THREE, LEFT_SHAFT,
-    TOO_MANY_PERIODS,
-) = range(1, 18)  # fmt: skip
+    TOO_MANY_PERIODS, BRAKE_OUTSIDE, GEAR_OUTSIDE, TRIPPED_OUTSIDE,
+) = range(1, 21)  # fmt: skip
 # Nine digits where a value has just passed another one, so that the sentence tells them apart.
 _STOPS = "accepted is 0 to shaft.height = %.9g m"
 _UNSTABLE = (
@@ -41,6 +41,14 @@ MESSAGES: Messages = {
         "car at %.6g m at t = %.6g s has left the shaft of 0 to %g m: servo.torque_limit = %g N.m is too small for this trip "
         "and load",
         4,
+    ),
+    BRAKE_OUTSIDE: (InputError, "brake = %.9g: 0 (released) to 1 (fully applied) is accepted", 1),
+    GEAR_OUTSIDE: (InputError, "safety_gear = %.9g: 0 (released) to 1 (fully applied) is accepted", 1),
+    TRIPPED_OUTSIDE: (
+        SimulationError,
+        "car or counterweight at %.6g m at t = %.6g s has left the shaft of 0 to %g m after a trip: brake, safety gear or buffer "
+        "does not stop it",
+        3,
     ),
     TOO_MANY_PERIODS: (
         InputError,

@@ -3,9 +3,9 @@
 from ..fmi.model_interface import Terminal, Variable, parameters_of
 from .parameters import Drive
 
-INPUTS = ("destination", "car_end_tension", "counterweight_end_tension")
-TENSIONS = INPUTS[1:]
-TORQUE = "motor_torque"  # the output
+INPUTS = ("destination", "car_end_tension", "counterweight_end_tension", "brake", "safety_gear")
+TENSIONS = INPUTS[1:3]
+LOADED = ("motor_torque", "car_hoist_tension", "counterweight_hoist_tension")  # outputs that tensions change at the start
 REAL_OUTPUTS = (  # name, unit, nominal, help
     ("car_position", "m", 10.0, "car height above the bottom landing"),
     ("car_velocity", "m/s", 1.0, "car velocity, up positive"),
@@ -14,14 +14,19 @@ REAL_OUTPUTS = (  # name, unit, nominal, help
     ("counterweight_velocity", "m/s", 1.0, "counterweight velocity, up positive"),
     ("counterweight_acceleration", "m/s2", 1.0, "counterweight acceleration, up positive"),
     ("encoder_position", "m", 10.0, "car height from the encoder on the traction sheave, without rope elongation"),
-    (TORQUE, "N.m", 1000.0, "torque of the motor, positive when it moves the car up"),
+    ("motor_torque", "N.m", 1000.0, "torque of the motor, positive when it moves the car up"),
     ("reference_position", "m", 10.0, "reference of the car height"),
     ("reference_velocity", "m/s", 1.0, "reference of the car velocity, up positive"),
     ("reference_acceleration", "m/s2", 1.0, "reference of the car acceleration, up positive"),
+    ("car_hoist_tension", "N", 1e4, "tension of all hoist ropes on the car's side"),
+    ("counterweight_hoist_tension", "N", 1e4, "tension of all hoist ropes on the counterweight's side"),
+    ("traction_slip", "m", 0.1, "slip of the hoist ropes on the traction sheave since a trip, positive towards a rising car"),
 )
 FLAGS = (
     ("moving", "a trip is in progress: the reference is moving"),
     ("trip_finished", "the last trip is finished: the reference is at rest at its destination"),
+    ("tripped", "brake or safety gear has been applied or a buffer met: the motor is off for good"),
+    ("hoist_rope_slack", "the hoist ropes are slack on one side"),
 )
 
 
@@ -50,13 +55,20 @@ def _inputs(drive: Drive) -> tuple[Variable, ...]:
         for end in ("car", "counterweight")
     )
     call = "height to which a change of this input calls the car when it is at rest; the initial value is not a call"
-    return (Variable("destination", "real", "input", call, "m", drive.trip.destination, 0.0, 1000.0, 10.0), *tensions)
+    levels = (
+        Variable(name, "real", "input", f"{what}: 0 off, 1 applied; above 0 the motor is off for good{more}", "1", 0.0, 0.0, 1.0)
+        for name, what, more in (
+            ("brake", "brake of the machine", ""),
+            ("safety_gear", "safety gear of the car", ", and the brake applied"),
+        )
+    )
+    return (Variable("destination", "real", "input", call, "m", drive.trip.destination, 0.0, 1000.0, 10.0), *tensions, *levels)
 
 
 def _outputs() -> tuple[Variable, ...]:
     """All outputs; of the inputs, only the tensions change any of them at the start: they load the motor that holds the car."""
     numbers = (
-        Variable(name, "real", "output", help, unit, nominal=nominal, initial_depends_on=TENSIONS if name == TORQUE else ())
+        Variable(name, "real", "output", help, unit, nominal=nominal, initial_depends_on=TENSIONS if name in LOADED else ())
         for name, unit, nominal, help in REAL_OUTPUTS
     )
     return (*numbers, *(Variable(name, "boolean", "output", help, initial_depends_on=()) for name, help in FLAGS))

@@ -19,6 +19,7 @@ from ..cosim.fmu_cache import NamedFmus
 from ..cosim.fmu_participant import FmuParticipant
 from ..cosim.in_process_participant import InProcessParticipant
 from ..cosim.prescribed_motion import EndMotion, PrescribedMotion
+from ..cosim.trip_signals import TripSignals
 
 MOTIONS = tuple(f"{end}_{what}" for end in ("car", "counterweight") for what in ("position", "velocity", "acceleration"))
 TENSIONS = ("car_end_tension", "counterweight_end_tension")
@@ -37,13 +38,23 @@ OWN_FMUS = NamedFmus()
 class Elevator:
     """The participants in their order of stepping, and their connections.
 
-    `driven`: by a drive, not as measured; `moving`: in a building that moves.
+    `driven`: by a drive, not as measured; `moving`: in a building that moves; `tripping`: its drive is tripped on the way.
     """
 
     participants: tuple[Participant, ...]
     connections: tuple[Connection, ...]
     driven: bool
     moving: bool = False
+    tripping: bool = False
+
+
+def tripped(elevator: Elevator, devices: tuple[str, ...], time: float) -> Elevator:
+    """The elevator whose drive gets its inputs `devices` fully applied from a time [s] on; without any its buffers trip it."""
+    signals: Participant = TripSignals("trip", devices, time)
+    connections = tuple(Connection("trip", one, "motion", one) for one in devices)
+    return replace(
+        elevator, participants=(signals, *elevator.participants), connections=connections + elevator.connections, tripping=True
+    )
 
 
 def in_building(elevator: Elevator, motion: BuildingMotion) -> Elevator:

@@ -31,6 +31,13 @@ MOTION = (
     _motion("car_acceleration", "m/s2", "up positive"),
     _motion("counterweight_position", "m", "height of the counterweight above the bottom landing"),
 )
+TRIP = (
+    _motion("counterweight_acceleration", "m/s2", "up positive"),
+    _motion("car_hoist_tension", "N", "tension of all hoist ropes on the car's side"),
+    _motion("counterweight_hoist_tension", "N", "tension of all hoist ropes on the counterweight's side"),
+    _motion("traction_slip", "m", "slip of the hoist ropes on the traction sheave, positive towards a rising car"),
+    _motion("hoist_rope_slack", "1", "1 while the hoist ropes are slack on one side"),
+)
 TORQUE = _motion("motor_torque", "N.m", "torque of the drive's motor")
 ROPE = (
     _rope("sheave_displacement", "m", "of the sheave's axle from `pit` below the bottom landing, up positive"),
@@ -66,13 +73,13 @@ BUILDING = tuple(
 )
 
 
-def columns(sensors: Sequence[str], driven: bool, moving: bool = False) -> list[Column]:
+def columns(sensors: Sequence[str], driven: bool, moving: bool = False, tripping: bool = False) -> list[Column]:
     """Columns of a trip with these sensors, in the order of the file; `driven`: by the drive, not by measured motion;
-    `moving`: in a building that moves.
+    `moving`: in a building that moves; `tripping`: the drive trips.
 
     Raises `InputError` if a sensor has the name of another column.
     """
-    fixed = [*MOTION, *ROPE, *([TORQUE] if driven else []), *(BUILDING if moving else ())]
+    fixed = [*MOTION, *ROPE, *([TORQUE] if driven else []), *(TRIP if tripping else ()), *(BUILDING if moving else ())]
     if taken := sorted(set(sensors) & {"time", *(one.name for one in fixed)}):
         raise InputError(f"sensors: the name {taken[0]} is that of another column; choose another name")
     lateral = [

@@ -1,4 +1,4 @@
-"""Motion of car and counterweight when a trip ends in a stop: brake, safety gear or buffer.
+"""Motion of car and counterweight when a trip ends with a given deceleration.
 
 The mass that moves down is stopped: its deceleration builds up over RISE, stays, and falls back. The other one mirrors it as long
 as the hoist ropes can hold it back, which is up to gravity's acceleration. Beyond, its ropes go slack: it flies on, decelerated
@@ -10,19 +10,17 @@ from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
-from scipy.integrate import trapezoid
 from scipy.interpolate import PPoly
 from scipy.optimize import brentq
 
 from comprope.drive.trajectory.s_curve import TrajectoryPoint
 from comprope.errors import InputError
 
-from .stop import SLOWEST, SPRING_STROKE, Stop
+from .stop import SLOWEST, Stop
 
 RISE = 0.04  # s in which a brake or a safety gear takes hold; engineering judgement: tens of milliseconds
 LANDING = 0.045  # s: a quarter period of a mass on hoist ropes at 5 Hz
-SPRING_PIECES = 16  # linear pieces of a spring's force
-LONGEST_APPROACH = 1000.0  # s until a buffer is reached
+LONGEST_APPROACH, APPROACH_STEP = 1000.0, 0.05  # s until a landing is passed, and how exactly that is found
 
 Pieces = tuple[list[float], list[float]]  # times [s], and accelerations [m/s2] that are linear between them
 
@@ -75,39 +73,40 @@ def _integral(rate: PPoly, start: float) -> PPoly:
     return found
 
 
+def moving_at(trip: Trajectory, stop: Stop) -> TrajectoryPoint:
+    """What the car does when it is stopped; raises `InputError` where there is nothing to stop, or for a safety gear upward."""
+    at = trip.at(stop.time)
+    if abs(at.velocity) < SLOWEST:
+        raise InputError(f"stop = {stop.time:g} s: the car is at rest at {at.position:g} m; a time at which it moves is accepted")
+    if stop.safety_gear and at.velocity > 0.0:
+        raise InputError(f"safety_gear: the car moves up at {stop.time:g} s; a time at which it moves down is accepted")
+    return at
+
+
+def buffer_contact(trip: Trajectory, height: float) -> float:
+    """When a car that runs on is at a landing [s]; raises `InputError` if it does not get there."""
+    times = np.arange(0.0, LONGEST_APPROACH, APPROACH_STEP)
+    beyond = next((float(time) for time in times if not 0.0 < trip.at(time).position < height and trip.at(time).velocity), None)
+    if beyond is None:
+        raise InputError(f"buffer: the car does not run past a landing within {LONGEST_APPROACH:g} s")
+    return beyond
+
+
 def stopped_motions(trip: Trajectory, stop: Stop, height: float, gravity: float) -> dict[str, StoppedMotion]:
-    """Motions of "car" and "counterweight" through a stop in a shaft of a height [m]; for a buffer `trip` runs past the landing.
+    """Motions of "car" and "counterweight" through a stop with a deceleration in a shaft of a height [m].
 
     Raises `InputError` where there is nothing to stop.
     """
-    begin = _contact(trip, stop.time, height) if stop.buffer else stop.time
-    at = trip.at(begin)
-    if abs(at.velocity) < SLOWEST:
-        raise InputError(f"stop = {begin:g} s: the car is at rest at {at.position:g} m; a time at which it moves is accepted")
-    if stop.safety_gear and at.velocity > 0.0:
-        raise InputError(f"safety_gear: the car moves up at {begin:g} s; a time at which it moves down is accepted")
+    begin, at = stop.time, moving_at(trip, stop)
     down, up = ("car", "counterweight") if at.velocity < 0.0 else ("counterweight", "car")
     shafts = {"car": None, "counterweight": height}
     speed, gaining = abs(at.velocity), at.acceleration * (1.0 if at.velocity > 0.0 else -1.0)
-    spring = stop.buffer == "spring"
-    slowed = _on_spring(begin, speed, gaining) if spring else _braked(begin, speed, gaining, stop.applied)
+    slowed = _braked(begin, speed, gaining, stop.applied)
     # What moves down is slowed by an acceleration up, what moves up by one down.
     other = (slowed[0], [-one for one in slowed[1]])
     if max(slowed[1]) > gravity:
         other = _flight(slowed, speed, gaining, gravity) or other
     return {down: StoppedMotion(trip, shafts[down], *slowed), up: StoppedMotion(trip, shafts[up], *other)}
-
-
-def _contact(trip: Trajectory, earliest: float, height: float) -> float:
-    """When car or counterweight reaches the bottom landing, after some time [s]."""
-    before = later = earliest
-    while 0.0 < trip.at(later).position < height and later - earliest < LONGEST_APPROACH:
-        before, later = later, later + 1.0
-    if before == later or later - earliest >= LONGEST_APPROACH:
-        at = trip.at(earliest).position
-        raise InputError(f"buffer: the car is at {at:g} m at {earliest:g} s; between the landings, and moving, is accepted")
-    landing = 0.0 if trip.at(later).position <= 0.0 else height
-    return float(brentq(lambda time: trip.at(time).position - landing, before, later, xtol=1e-12))
 
 
 def _braked(begin: float, speed: float, gaining: float, deceleration: float) -> Pieces:
@@ -118,17 +117,6 @@ def _braked(begin: float, speed: float, gaining: float, deceleration: float) -> 
         return times, [-gaining, deceleration, deceleration, 0.0]
     # Rest comes before the brake is fully on: it reaches what brings the speed to zero.
     return [begin, begin + RISE, begin + 2.0 * RISE], [-gaining, (speed + 0.5 * RISE * gaining) / RISE, 0.0]
-
-
-def _on_spring(begin: float, speed: float, gaining: float) -> Pieces:
-    """The same on a spring of the least stroke, up to its deepest point, a quarter of a sine, and RISE to let go."""
-    frequency, part = 1.0 / (SPRING_STROKE * speed), np.linspace(0.0, 0.5 * np.pi, SPRING_PIECES + 1)
-    times = [*(begin + part / frequency).tolist(), begin + float(part[-1]) / frequency + RISE]
-    values = [-gaining, *(speed * frequency * np.sin(part[1:])).tolist(), 0.0]
-    # Straight pieces take off another speed than the sine, and so does letting go: one factor makes up for both.
-    first = 0.5 * values[0] * (times[1] - times[0])
-    share = (speed - first) / (float(trapezoid(values, times)) - first)
-    return times, [values[0], *(share * one for one in values[1:])]
 
 
 def _flight(slowed: Pieces, speed: float, gaining: float, gravity: float) -> Pieces | None:

@@ -40,7 +40,7 @@ def simulate(elevator: Elevator, sensors: Sequence[str], timing: Timing, progres
 
     `sensors` are the names of the model's sensors in their order; `progress(count, total)` is called after each step.
     """
-    chosen = columns(sensors, elevator.driven, elevator.moving)
+    chosen = columns(sensors, elevator.driven, elevator.moving, elevator.tripping)
     rows = []
     before = timing.steps_before * timing.step
     for sample in co_simulate(
@@ -81,6 +81,7 @@ def summary(simulated: Simulated, rest: Mapping[str, NDArray[np.float64]]) -> li
         ("sheave force", f"{force.min():.1f} N to {force.max():.1f} N"),
         ("sheave displacement", f"{_range(table['sheave_displacement'])} mm"),
         *_slack(table),
+        *_hoist(table),
         ("energy residual", f"{table['energy_residual'].abs().max():.2g} J at most"),
         ("Newton iterations", f"{end['newton_iterations']:.0f}, {end['halvings']:.0f} steps halved"),
     ]
@@ -97,6 +98,16 @@ def _slack(table: pd.DataFrame) -> list[tuple[str, str]]:
 def travel(table: pd.DataFrame) -> str:
     """Heights of the car at the start and at the end."""
     return f"{_height(table['car_position'].iloc[0])} to {_height(table['car_position'].iloc[-1])}"
+
+
+def _hoist(table: pd.DataFrame) -> list[tuple[str, str]]:
+    """What the hoist ropes do in a trip of the drive: slack, slip, largest tension; nothing of other trips."""
+    if "traction_slip" not in table:
+        return []
+    slack = float(table["hoist_rope_slack"].sum() * (table["time"].iloc[1] - table["time"].iloc[0]))
+    most = table[["car_hoist_tension", "counterweight_hoist_tension"]].max().max()
+    slip = 1e3 * table["traction_slip"].abs().max()
+    return [("hoist ropes", f"slack for {slack:.2f} s, slip {slip:.0f} mm at most, tension up to {1e-3 * most:.1f} kN")]
 
 
 def _height(value: float) -> str:

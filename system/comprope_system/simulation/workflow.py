@@ -9,7 +9,6 @@ from typing import Any
 
 from comprope.drive.parameters import Drive
 from comprope.drive.trajectory.reference_trajectory import first_trajectory
-from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import load, with_changes
@@ -24,19 +23,18 @@ from ..parallel.progress import Progress, no_progress
 from ..presets import model_path
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive
 from ..presets.overrides import Changes, by_key
-from .elevator import OWN_FMUS, Elevator, driven_elevator, in_building, prescribed_elevator
+from .elevator import OWN_FMUS, Elevator, driven_elevator, in_building, prescribed_elevator, tripped
 from .measured_run import MotionWishes, Run, measured_timing, read_run
 from .result import SimulationResult
 from .rope_shapes import FrameRecorder
-from .stop import LARGEST, Stop, braking
-from .stop_motion import Trajectory, stopped_motions
+from .stop import CONTROLLED, Stop, stopping_drive
+from .stop_motion import buffer_contact, moving_at, stopped_motions
 from .timing import Timing
-from .trip_simulation import relative_to_building
+from .trip_simulation import Simulated, relative_to_building
 from .trip_simulation import simulate as simulate_trip
 
-BEYOND = 1e5  # m, destination of a car that does not stop by itself
-BRAKED = {False: "", True: ": the hoist ropes slip on the traction sheave"}
 FIXED = ("shaft_walls", "rope_guides")  # effects of what is fixed to the building at its height
+MOVING = 0.1  # m/s: faster than a car that bounces on its hoist ropes at the end of a simulation
 SETTLE = 8.0  # s simulated after the trip, while the rope vibrates freely
 
 
@@ -92,7 +90,7 @@ def simulate(
     elevator: AbstractContextManager[Elevator]
     remarks: tuple[str, ...] = ()
     if motion.stop:
-        elevator, natural, remarks = _stopped(model, motion, rope_model, drive_changes, fmus)
+        elevator, natural = _stopped(model, motion, rope_model, drive_changes, fmus)
         timing = Timing(natural if duration is None else duration, step, coupling)
     elif measured:
         elevator = prescribed_elevator(rope_model, measured.trips, measured.lateral, fmus is None, fmus or OWN_FMUS)
@@ -102,11 +100,14 @@ def simulate(
         timing = Timing(natural if duration is None else duration, step, coupling)
     building = _moving_building(rope_model, measured, timing)
     with elevator as found:
-        ready = in_building(found, building.motion) if building else found
+        ready = tripped(found, motion.stop.devices, motion.stop.time) if motion.stop and found.driven else found
+        ready = in_building(ready, building.motion) if building else ready
         recorder = None if fmus else FrameRecorder(partial(_rope, ready), timing.step)
         simulated = simulate_trip(ready, names, timing, partial(_advance, progress, recorder, timing.steps_before))
     if building:
         simulated, remarks = relative_to_building(simulated, rope_model, building.motion), (*remarks, *building.remarks)
+    if motion.stop:
+        remarks = (*remarks, *_still_moving(simulated))
     recording = recorder.recording if recorder else None
     return SimulationResult(
         simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording, remarks,
@@ -192,19 +193,23 @@ def _drive(model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes:
 
 def _stopped(
     model: ModelInput, motion: CarMotion, rope_model: RopeModel, changes: dict[str, dict[str, Any]], fmus: NamedFmus | None
-) -> tuple[AbstractContextManager[Elevator], float, tuple[str, ...]]:
-    """The elevator whose ends move as in a stop, the simulated time [s], and remarks."""
-    drive, stop, height = _drive(model, motion, rope_model, changes), motion.stop or Stop(), rope_model.shaft.height
-    trip: Trajectory = first_trajectory(drive)
-    remarks: tuple[str, ...] = ()
+) -> tuple[AbstractContextManager[Elevator], float]:
+    """The elevator that is stopped on its way, and the simulated time [s]."""
+    stop, height, direct = motion.stop or Stop(), rope_model.shaft.height, fmus is None
+    drive = stopping_drive(_drive(model, motion, rope_model, changes), stop)
+    trip = first_trajectory(drive)
     if stop.buffer:
-        beyond = BEYOND if drive.trip.destination > drive.trip.start_position else -BEYOND
-        trip = plan_s_curve(drive.profile, drive.trip.start_position, beyond, drive.trip.start_time)
-    if stop.brake is not None:
-        at = trip.at(stop.time)
-        found = braking(drive, stop.brake, at.position, at.velocity)
-        stop = Stop(stop.time, min(found.deceleration, LARGEST))
-        remarks = (f"the brake holds the car back by {found.deceleration:.2f} m/s2{BRAKED[found.slips]}",)
+        return driven_elevator(rope_model, drive, direct, fmus or OWN_FMUS), buffer_contact(trip, height) + SETTLE
+    at = moving_at(trip, stop)
+    if stop.devices:
+        slowing = abs(at.velocity) / CONTROLLED
+        return driven_elevator(rope_model, drive, direct, fmus or OWN_FMUS), stop.time + slowing + SETTLE
     motions = stopped_motions(trip, stop, height, rope_model.shaft.gravity)
-    elevator = prescribed_elevator(rope_model, motions, {}, fmus is None, fmus or OWN_FMUS)
-    return elevator, max(one.end for one in motions.values()) + SETTLE, remarks
+    elevator = prescribed_elevator(rope_model, motions, {}, direct, fmus or OWN_FMUS)
+    return elevator, max(one.end for one in motions.values()) + SETTLE
+
+
+def _still_moving(simulated: Simulated) -> tuple[str, ...]:
+    """A remark where the car has not come to rest."""
+    speed, time = float(simulated.table["car_velocity"].iloc[-1]), float(simulated.table["time"].iloc[-1])
+    return (f"the car still moves at {speed:.2f} m/s at {time:g} s",) if abs(speed) > MOVING else ()

@@ -10,11 +10,13 @@ S, X_C, X_W, V_S, V_C, V_W, T_C, T_W, FORCE, F_C, F_W = range(11)
 STATES, ROW = 8, 11  # of the hoist; states and inputs together
 MATRIX = ROW * ROW
 RATES = STATES * ROW  # numbers of the matrices of one operating point
-DESTINATION, CAR_TENSION, COUNTERWEIGHT_TENSION = range(3)  # inputs of the drive
+DESTINATION, CAR_TENSION, COUNTERWEIGHT_TENSION, BRAKE, SAFETY_GEAR = range(5)  # inputs of the drive
 PERIODS, POINT, ELAPSED, START_TIME, CLOCK = range(5)
 INTEGRAL, CALLED, REST_CAR, REST_COUNTERWEIGHT, SERVO = range(5)
 GAIN, INPUT_GAIN, OUTPUT_GAIN, FEEDFORWARD, GAINS = range(5)
-REALS = 11  # outputs; two switches follow
+TRIPPED, BRAKE_LEVEL, GEAR_LEVEL, SLIP, SLIP_VELOCITY, CAR_ACCELERATION, COUNTERWEIGHT_ACCELERATION, EMERGENCY = range(8)
+MOTOR_OFF, CHAIN_OPEN = 1.0, 2.0  # how it has tripped: by the brake; by safety gear or buffer, which apply the brake as well
+REALS = 14  # outputs; four switches follow
 
 IMPULSES_AT_MOST = 3
 # A trip: its limits of time and place, the S-curve, the shaping, and the knots of a free-form trip.
@@ -34,7 +36,7 @@ class Parameters(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """What the drive is told: the height called to [m], and the tensions of one compensation rope [N]."""
+    """Inputs: the height called to [m], tensions of one compensation rope [N], and how far brake and safety gear are applied."""
 
     u: Array
 
@@ -46,6 +48,7 @@ class State(NamedTuple):
     servo: Array  # integral of the speed error [m/s], destination called last [m], forces of the ropes at rest [N]
     trip: Array  # present trip
     vector: Array  # states and inputs of the hoist
+    emergency: Array  # whether it has tripped, levels of brake and safety gear, slip [m, m/s], accelerations of the ends [m/s2]
 
 
 class Design(NamedTuple):

@@ -6,14 +6,16 @@ from ...kernels.jit import kernel
 from ...kernels.status import SUCCESS
 from ..parameters.parameter_checks import check_curve, check_impulses, check_smoothing, check_stops
 from ..status import (
+    BRAKE_OUTSIDE,
     CALL_OUTSIDE,
     CAR_NOT_FINITE,
     COUNTERWEIGHT_NOT_FINITE,
+    GEAR_OUTSIDE,
     TOO_EARLY,
     TOO_WEAK,
     UNSTABLE,
 )
-from .arguments import CAR_TENSION, COUNTERWEIGHT_TENSION, DESTINATION, Inputs, Parameters, Workspace
+from .arguments import BRAKE, CAR_TENSION, COUNTERWEIGHT_TENSION, DESTINATION, SAFETY_GEAR, Inputs, Parameters, Workspace
 from .design import closed_loop_radius
 from .hoist import force_at_rest
 from .parameter_vector import (
@@ -34,7 +36,7 @@ from .parameter_vector import (
 )
 
 # Numbers of the checks: of single components, of all parameters, of inputs, and of the equilibrium at the start.
-COMPONENT_CHECKS, STOPS, INPUT_CHECKS, START_CHECK, TORQUE_CHECK, GAIN_CHECK, CHECKS = 0, 3, 4, 7, 8, 9, 10
+COMPONENT_CHECKS, STOPS, INPUT_CHECKS, START_CHECK, TORQUE_CHECK, GAIN_CHECK, CHECKS = 0, 3, 4, 9, 10, 11, 12
 
 
 @kernel
@@ -67,6 +69,12 @@ def _check_input(p, u, number, message):
     if number == 1:
         message[0] = u[COUNTERWEIGHT_TENSION]
         return SUCCESS if isfinite(u[COUNTERWEIGHT_TENSION]) else COUNTERWEIGHT_NOT_FINITE
+    if number == 3:
+        message[0] = u[BRAKE]
+        return SUCCESS if 0.0 <= u[BRAKE] <= 1.0 else BRAKE_OUTSIDE
+    if number == 4:
+        message[0] = u[SAFETY_GEAR]
+        return SUCCESS if 0.0 <= u[SAFETY_GEAR] <= 1.0 else GEAR_OUTSIDE
     message[0], message[1] = u[DESTINATION], p[HEIGHT]
     return SUCCESS if 0.0 <= u[DESTINATION] <= p[HEIGHT] else CALL_OUTSIDE
 

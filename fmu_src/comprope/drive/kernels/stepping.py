@@ -6,14 +6,17 @@ is constant and the hoist is integrated exactly, so that communication steps onl
 
 from ...kernels.jit import kernel
 from ...kernels.status import SUCCESS
-from ..status import LEFT_SHAFT, TOO_MANY_PERIODS
+from ..status import LEFT_SHAFT, TOO_MANY_PERIODS, TRIPPED_OUTSIDE
 from .arguments import (
+    BRAKE,
     CALLED,
     CAR_TENSION,
+    CHAIN_OPEN,
     CLOCK,
     COUNTERWEIGHT_TENSION,
     DESTINATION,
     ELAPSED,
+    EMERGENCY,
     END,
     F_C,
     F_W,
@@ -23,6 +26,7 @@ from .arguments import (
     INPUT_GAIN,
     INTEGRAL,
     MATRIX,
+    MOTOR_OFF,
     OUTPUT_GAIN,
     PERIODS,
     POINT,
@@ -30,10 +34,14 @@ from .arguments import (
     REST_CAR,
     REST_COUNTERWEIGHT,
     ROW,
+    SAFETY_GEAR,
     SERVO,
     START_TIME,
     STATES,
+    TRIPPED,
     V_S,
+    X_C,
+    X_W,
     Design,
     Inputs,
     Parameters,
@@ -46,10 +54,14 @@ from .clock import now
 from .design import advance_matrix
 from .hoist import rest_force
 from .parameter_vector import (
+    BUFFER_CLEARANCE,
+    BUFFER_DECELERATION,
+    BUFFER_STIFFNESS,
     FIRST_DESTINATION,
     FIRST_START,
     HEADROOM,
     HEIGHT,
+    OVERRUN,
     POSITION_BANDWIDTH,
     RADIUS,
     ROPES,
@@ -59,8 +71,10 @@ from .parameter_vector import (
     VELOCITY_FEEDFORWARD,
 )
 from .reference.shaped_trip import plan_trip, reference_at, reference_end
+from .tripped_hoist import advance_tripped, rope_position
 
 SAME_TIME = 1e-6  # times closer than this fraction of a sample period are equal: importers accumulate steps
+SPARE_AFTER_TRIP = 0.9  # of the headroom, beyond both landings: so much rope is left
 MOST_PERIODS = 1e6  # of the controller in one communication step: a second of computation
 
 
@@ -78,6 +92,13 @@ def operating_point(design, position):
 
 
 @kernel
+def overrun_end(p):
+    """Where the first trip ends [m]: at its destination, or beyond where the drive fails to stop."""
+    start, end = p[START_POSITION], p[FIRST_DESTINATION]
+    return end + p[OVERRUN] if end > start else end - p[OVERRUN] if end < start else end
+
+
+@kernel
 def start_at_rest(parameters: Parameters, inputs: Inputs, state: State, design: Design, t: float) -> None:
     """The equilibrium at the time t [s], the motor holding car and counterweight against the tensions among the inputs."""
     p, u, servo = parameters.p, inputs.u, state.servo
@@ -90,7 +111,9 @@ def start_at_rest(parameters: Parameters, inputs: Inputs, state: State, design: 
     state.clock[START_TIME], state.clock[POINT] = t, operating_point(design, p[START_POSITION])
     servo[CALLED] = u[DESTINATION]
     servo[REST_CAR], servo[REST_COUNTERWEIGHT] = p[ROPES] * u[CAR_TENSION], p[ROPES] * u[COUNTERWEIGHT_TENSION]
-    plan_trip(p, state.trip, p[FIRST_START], p[START_POSITION], p[FIRST_DESTINATION])
+    for k in range(EMERGENCY):
+        state.emergency[k] = 0.0
+    plan_trip(p, state.trip, p[FIRST_START], p[START_POSITION], overrun_end(p))
 
 
 @kernel
@@ -109,13 +132,22 @@ def advance_drive(
     status = _set_pulls(p, u, state, work.message)
     if status != SUCCESS:
         return status
+    if u[SAFETY_GEAR] > 0.0:
+        state.emergency[TRIPPED] = CHAIN_OPEN
+    elif u[BRAKE] > 0.0:
+        state.emergency[TRIPPED] = max(state.emergency[TRIPPED], MOTOR_OFF)
     end, same = t + dt - clock[START_TIME], SAME_TIME * period
     while end - (clock[PERIODS] * period + clock[ELAPSED]) > same:
         if clock[ELAPSED] == 0.0:
-            status = _run_controller(p, u, state, design, work.message)
+            status = _check_place(p, state, work.message)
+            if status == SUCCESS and state.emergency[TRIPPED] == 0.0:
+                status = _run_controller(p, u, state, design, work.message)
             if status != SUCCESS:
                 return status
-        _advance_hoist(p, state, design, work, end - clock[PERIODS] * period)
+        if state.emergency[TRIPPED] != 0.0:
+            _advance_without_motor(p, u, state, end - clock[PERIODS] * period)
+        else:
+            _advance_hoist(p, state, design, work, end - clock[PERIODS] * period)
     return SUCCESS
 
 
@@ -132,6 +164,24 @@ def _set_pulls(p, u, state, message):
         servo[REST_CAR], servo[REST_COUNTERWEIGHT] = car, counterweight
     vector[F_C], vector[F_W] = car - servo[REST_CAR], counterweight - servo[REST_COUNTERWEIGHT]
     return SUCCESS
+
+
+@kernel
+def _check_place(p, state, message):
+    """After a trip: car and counterweight are where there is rope. Before: one that meets its buffer trips the drive."""
+    vector, emergency = state.vector, state.emergency
+    car, counterweight = p[START_POSITION] + vector[X_C], p[HEIGHT] - p[START_POSITION] + vector[X_W]
+    if emergency[TRIPPED] == 0.0:
+        buffers = p[BUFFER_STIFFNESS] > 0.0 or p[BUFFER_DECELERATION] > 0.0
+        if buffers and min(car, counterweight) < -p[BUFFER_CLEARANCE]:
+            emergency[TRIPPED] = CHAIN_OPEN
+        return SUCCESS
+    rope, spare = rope_position(p, vector, emergency), SPARE_AFTER_TRIP * p[HEADROOM]
+    lowest, highest = min(car, counterweight, rope), max(car, counterweight, rope)
+    if -spare <= lowest and highest <= p[HEIGHT] + spare:
+        return SUCCESS
+    message[0], message[1], message[2] = (lowest if lowest < -spare else highest), now(p, state.clock), p[HEIGHT]
+    return TRIPPED_OUTSIDE
 
 
 @kernel
@@ -166,6 +216,18 @@ def servo_force(servo, gains, error, feedforward, low, high):
     if (force - limited) * error <= 0.0:
         servo[INTEGRAL] += gains[INPUT_GAIN] * error
     return limited
+
+
+@kernel
+def _advance_without_motor(p, u, state, until):
+    """The same as `_advance_hoist` after a trip."""
+    clock, period = state.clock, p[SAMPLE_PERIOD]
+    whole = until > period - SAME_TIME * period
+    brake = 1.0 if state.emergency[TRIPPED] == CHAIN_OPEN else u[BRAKE]
+    advance_tripped(p, state, brake, u[SAFETY_GEAR], (period if whole else until) - clock[ELAPSED])
+    if whole:
+        clock[PERIODS] += 1.0
+    clock[ELAPSED] = 0.0 if whole else until
 
 
 @kernel

@@ -4,6 +4,8 @@ The defaults are a 50 m test tower at 150 m/min (2.5 m/s) and 0.8 m/s2, machine 
 ropes 1:1, and two compensation ropes that weigh as much per metre as all hoist ropes together.
 """
 
+from math import pi
+
 from pydantic import model_validator
 
 from ...kernels.kernel_linking import uncompiled
@@ -100,6 +102,7 @@ class FirstTrip(Component):
     start_position: float = quantity("m", "car height at the start", 0.0, 1000.0, default=0.0, nominal=10.0)
     destination: float = quantity("m", "car height at the end of the first trip", 0.0, 1000.0, default=50.0)
     start_time: float = quantity("s", "start of the first trip, not before that of the simulation", 0.0, 1e6, default=1.0)
+    overrun: float = quantity("m", "way of a drive that fails to stop beyond the first destination", 0.0, 1000.0, default=0.0)
 
 
 class Shaft(Component):
@@ -140,6 +143,42 @@ class Servo(Component):
     acceleration_feedforward: float = quantity("1", "fraction of the inertia force that is fed forward", 0.0, 1.5, default=1.0)
 
 
+class Brake(Component):
+    """Brake of the machine: friction at the traction sheave, with the motor off."""
+
+    torque: float = quantity("N.m", "torque of the brake, fully applied", 0.0, 1e7, default=2500.0)
+    rise_time: float = quantity("s", "time in which it takes hold", 0.0, 5.0, default=0.04)
+
+
+class SafetyGear(Component):
+    """Safety gear of the car: friction on its guide rails."""
+
+    deceleration: float = quantity("m/s2", "deceleration of the mass of the car that hangs on nothing", 0.1, 100.0, default=15.0)
+    upward_share: float = quantity(
+        "1", "force against upward over that against downward motion; 0: lifting the car releases it", 0.0, 1.0, default=0.0
+    )
+    rise_time: float = quantity("s", "time in which it takes hold", 0.0, 5.0, default=0.04)
+
+
+class Buffer(Component):
+    """Buffers below car and counterweight; without stiffness and deceleration there are none."""
+
+    stiffness: float = quantity("N/m", "stiffness of a spring buffer", 0.0, 1e8, default=0.0, nominal=1e5)
+    deceleration: float = quantity(
+        "m/s2", "deceleration by a hydraulic buffer of what hangs on nothing", 0.0, 100.0, default=0.0, nominal=10.0
+    )
+    clearance: float = quantity("m", "from car or counterweight at the bottom landing down to the buffer", 0.0, 10.0, default=0.1)
+
+
+class Traction(Component):
+    """Friction of the hoist ropes on the traction sheave, which limits what a brake can hold: EN 81-50."""
+
+    friction: float = quantity("1", "friction coefficient at rest; half as large at 10 m/s", 0.0, 2.0, default=0.1)
+    wrap: float = quantity("rad", "angle of wrap", 0.0, 12.0, default=pi)
+    undercut: float = quantity("rad", "angle of the groove's undercut", 0.0, 1.85, default=0.5 * pi)
+    groove: float = quantity("rad", "angle of the groove", 0.0, 1.05, default=pi / 6.0)
+
+
 class Drive(Component):
     """All parameters of a drive."""
 
@@ -151,6 +190,10 @@ class Drive(Component):
     plant: Plant = Plant()
     rope: CompensationRopes = CompensationRopes()
     servo: Servo = Servo()
+    brake: Brake = Brake()
+    safety_gear: SafetyGear = SafetyGear()
+    buffer: Buffer = Buffer()
+    traction: Traction = Traction()
 
     @property
     def without_trips(self) -> "Drive":

@@ -9,6 +9,7 @@ Neither a moving average nor an input shaper exceeds a limit that the trip meets
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import copysign
 
 from ...kernels.kernel_linking import uncompiled
 from ..kernels.arguments import DELAYS, IMPULSES, SMOOTHING, TRIP, WEIGHTS
@@ -78,7 +79,7 @@ def reference_trajectory(drive: Drive, trip: SCurve) -> ReferenceTrajectory:
 
 
 def first_trajectory(drive: Drive) -> ReferenceTrajectory:
-    """The trajectory of the drive's first trip."""
-    return reference_trajectory(
-        drive, plan_s_curve(drive.profile, drive.trip.start_position, drive.trip.destination, drive.trip.start_time)
-    )
+    """The trajectory of the drive's first trip, with its overrun."""
+    start, end = drive.trip.start_position, drive.trip.destination
+    end += copysign(drive.trip.overrun, end - start) if end != start else 0.0
+    return reference_trajectory(drive, plan_s_curve(drive.profile, start, end, drive.trip.start_time))
