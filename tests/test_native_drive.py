@@ -139,7 +139,7 @@ TRIPS = {
 def test_the_same_trips_as_in_python(pair: DrivePair, name: str) -> None:
     """Slack ropes, slip, what brake and gear hold, and the release of both."""
     changes, levels = TRIPS[name]
-    down = {"trip.start_position": 14.0, "trip.destination": 0.0, "destination": 0.0, "plant.rope_damping": 2e5}
+    down = {"trip.start_position": 10.0, "trip.destination": 0.0, "destination": 0.0, "plant.rope_damping": 2e5}
     pair.start(down | changes | ROPES)
     for count in range(700):
         pair.do_step((0.01, 0.0233, 0.0041, 0.012)[count % 4])
