@@ -31,7 +31,7 @@ CAR = Annotated[Path | None, typer.Option(metavar="RUN.csv", help="Prescribe the
 EXACT = Annotated[bool, typer.Option("--exact", help="With --car: take the motion as it is, without looking for a smooth trip.")]
 STOP = Annotated[float | None, typer.Option(metavar="S", help="Stop the car at this time from the start of the simulation.")]
 DECELERATION = Annotated[
-    float | None, typer.Option(metavar="M/S2", help="Deceleration of the stop; default 3, of gear alone 15, of buffer alone 9.81.")
+    float | None, typer.Option(metavar="M/S2", help="Deceleration of the stop; default 3, gear alone 15, buffer alone 9.81.")
 ]
 SAFETY_GEAR = Annotated[bool, typer.Option("--safety-gear", help="With --stop: the car's safety gear and the brake stop it.")]
 BUFFER = Annotated[
