@@ -25,7 +25,7 @@ In JSON, `misfit_per_datum`, `chi_square_per_sample`, `clues`, `bought` and `pru
 NAMES = (
     "simulate", "modes", "new", "check", "compare", "diagnose", "add", "improve", "tune", "design", "building", "sway", "fmu",
 )  # fmt: skip
-OPTIONS = ("CarMotion", "Stop", "TuningOptions", "DesignOptions", "BuildingSway", "RecordOptions", "SwayOptions")
+OPTIONS = ("CarMotion", "Stop", "TuningOptions", "DesignOptions", "BuildingSway", "RopeSet", "RecordOptions", "SwayOptions")
 
 
 def text(table: Callable[[Iterable[str], Iterable[Iterable[str]]], str]) -> str:

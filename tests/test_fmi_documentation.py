@@ -25,6 +25,7 @@ UNSEEN = {
     "shaft.gravity", "rope.count", "solver.step", "solver.numerical_damping", "derivative_inputs", "inputs_at_end",
     "profile.smoothing", "trip.start_position", "trip.destination", "servo.torque_limit", "servo.sample_period",
     "servo.velocity_feedforward", "servo.acceleration_feedforward", "rope.compression_ratio", "sheave.limit_switch",
+    "shaft.walls_follow", "trip.overrun",
 }  # fmt: skip
 
 
@@ -55,7 +56,7 @@ def test_pictures_show_what_is_declared(model: ModelInterface) -> None:
 
 @pytest.mark.parametrize("model", [ROPE, DRIVE], ids=lambda model: model.name)
 def test_every_parameter_is_in_a_picture_or_known_to_be_in_none(model: ModelInterface) -> None:
-    series = re.compile(r"curve\.|shaper\.|sensors\[[2-9]|.*\.on_counterweight_side")
+    series = re.compile(r"curve\.|shaper\.|brake\.|safety_gear\.|buffer\.|traction\.|sensors\[[2-9]|.*\.on_counterweight_side")
     names = {one.name for one in model.of_role("parameter") if not series.match(one.name)}
     assert names - set(labels(model)) <= UNSEEN
 

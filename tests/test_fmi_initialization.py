@@ -59,7 +59,8 @@ def test_outputs_at_the_start_depend_on_inputs_as_declared(interface: Callable[[
     found: dict[str, set[str]] = {name: set() for name in before}
     for one in model.of_role("input"):
         start = {"sensors[1].height": 11.9} if interface is rope else {}
-        value = float(one.start or 0.0) + (0.05 if one.unit == "m" and "dest" not in one.name else -1.0)
+        change = 0.05 if (one.unit == "m" and "dest" not in one.name) or one.unit == "1" else -1.0
+        value = float(one.start or 0.0) + change
         for name, after in Slave(model, **start, **{one.name: value}).outputs().items():
             if after != before[name]:
                 found[name].add(one.name)

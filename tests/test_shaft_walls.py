@@ -5,7 +5,7 @@ import pytest
 
 from comprope.rope.effects import REGISTRY
 from comprope.rope.effects.checks.trial_state import NODES, TrialState
-from comprope.rope.parameters.parameter_vector import ELEMENT, R, slot
+from comprope.rope.parameters.parameter_vector import CAR_WALL, CAR_WALL_V, ELEMENT, R, slot
 from comprope.rope.runtime.array_layout import DXX, DYY
 from comprope.rope.runtime.kernel_arguments import Weights
 from comprope.rope.simulator.rope import CompensationRope
@@ -96,3 +96,26 @@ def test_a_rope_that_swings_bounces_off_a_wall_and_keeps_its_energy() -> None:
     assert near[after].max() < 0.17 < far[after].max()
     assert held.energies()["effects.shaft_walls"] != 0.0
     assert abs(held.energy_residual) < 0.05 * abs(free.energies()["ends"])
+
+
+def test_a_wall_that_moves_with_the_building_pushes_at_the_distance_between_them() -> None:
+    """Displaced by 20 mm at the car's end, it is nearer by its share of the height above the axle; so with its velocity."""
+    still, moved = (beside_the_wall(6.0, out, 0.0, outward) for out, outward in ((0.051, 0.1), (0.05, 0.0)))
+    q, m = moved.arguments["q"], NODES + 1
+    share = (q[NODES] - q[NODE]) / (q[NODES] - q[0])
+    assert 0.2 < share < 1.0
+    moved.p[CAR_WALL], moved.p[CAR_WALL_V] = 0.02, 0.3
+    q[m + NODE] = -(moved.p[R] + 0.051 - share * 0.02)
+    moved.arguments["v"][m + NODE] = share * 0.3 - 0.1
+    assert moved.forces()[m + NODE] == pytest.approx(still.forces()[m + NODE], rel=1e-9)
+
+
+def test_a_rope_in_a_leaning_building_touches_no_wall_that_leans_with_it() -> None:
+    wall = {f"effects.shaft_walls.{name}": value for name, value in (("stiffness", 1e5), ("distance", 0.06))}
+    found = []
+    for changes in ({}, wall | {"shaft.walls_follow": 1.0}, wall):
+        hung = rope(changes)
+        hung.solve_equilibrium(20.0, 30.0, (-0.1, 0.1))
+        found.append(np.asarray(hung.state.q).copy())
+    assert np.abs(found[1] - found[0]).max() < 1e-6
+    assert np.abs(found[2] - found[0]).max() > 0.01

@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from .fmu_export.workflow import fmu
     from .identification.workflow import add, check, compare, diagnose, improve
     from .modal.workflow import modes
-    from .sheave_design.workflow import BuildingSway, DesignOptions, design
+    from .sheave_design.workflow import BuildingSway, DesignOptions, RopeSet, design
     from .simulation.workflow import CarMotion, Stop, simulate
     from .sway_operation.workflow import SwayOptions, sway
     from .tuning.workflow import TuningOptions, tune
 
 __all__ = [
-    "BuildingSway", "CarMotion", "DesignOptions", "RecordOptions", "Stop", "SwayOptions", "TuningOptions",
+    "BuildingSway", "CarMotion", "DesignOptions", "RecordOptions", "RopeSet", "Stop", "SwayOptions", "TuningOptions",
     "add", "building", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "new", "simulate", "sway", "tune",
 ]  # fmt: skip
 _MODULES = {
@@ -35,7 +35,7 @@ _MODULES = {
     "fmu_export": ("fmu",),
     "identification": ("add", "check", "compare", "diagnose", "improve"),
     "modal": ("modes",),
-    "sheave_design": ("BuildingSway", "DesignOptions", "design"),
+    "sheave_design": ("BuildingSway", "DesignOptions", "RopeSet", "design"),
     "simulation": ("CarMotion", "Stop", "simulate"),
     "sway_operation": ("SwayOptions", "sway"),
     "tuning": ("TuningOptions", "tune"),

@@ -5,7 +5,8 @@ from .parameters import Drive
 
 INPUTS = ("destination", "car_end_tension", "counterweight_end_tension", "brake", "safety_gear")
 TENSIONS = INPUTS[1:3]
-LOADED = ("motor_torque", "car_hoist_tension", "counterweight_hoist_tension")  # outputs that tensions change at the start
+# Outputs that inputs change at the start, and these inputs.
+LOADED = {"motor_torque": TENSIONS} | {f"{end}_hoist_tension": (f"{end}_end_tension",) for end in ("car", "counterweight")}
 REAL_OUTPUTS = (  # name, unit, nominal, help
     ("car_position", "m", 10.0, "car height above the bottom landing"),
     ("car_velocity", "m/s", 1.0, "car velocity, up positive"),
@@ -68,7 +69,7 @@ def _inputs(drive: Drive) -> tuple[Variable, ...]:
 def _outputs() -> tuple[Variable, ...]:
     """All outputs; of the inputs, only the tensions change any of them at the start: they load the motor that holds the car."""
     numbers = (
-        Variable(name, "real", "output", help, unit, nominal=nominal, initial_depends_on=TENSIONS if name in LOADED else ())
+        Variable(name, "real", "output", help, unit, nominal=nominal, initial_depends_on=LOADED.get(name, ()))
         for name, unit, nominal, help in REAL_OUTPUTS
     )
     return (*numbers, *(Variable(name, "boolean", "output", help, initial_depends_on=()) for name, help in FLAGS))

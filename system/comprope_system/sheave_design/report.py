@@ -34,6 +34,7 @@ def summary(result: Result) -> list[str]:
             f"car at {one['car']:.1f} m"
             for one in result["clearances"]
         ),
+        *_shared(result),
         f"sensors: {places}; one of them measures at least {100.0 * result['sensors']['share']:.0f} % of any large swing",
     ]
 
@@ -46,6 +47,7 @@ def sections(result: Result, model: RopeModel, chosen: RopeModel, profile: Profi
         Section("sensors", "Sensor heights", _sensors(result)),
         *([Section("stops", "Stops", _stops(result))] if result["stops"] else []),
         *([Section("clearance", "Clearance", _clearances(result))] if result["clearances"] else []),
+        *([Section("sharing", "Ropes that differ", _sharing(result["sharing"]))] if result["sharing"] else []),
     ]
 
 
@@ -58,8 +60,43 @@ def _worst_stops(result: Result) -> list[str]:
         )
         lines.append(
             f"stop, {kind}: the sheave rises by up to {1e3 * rise:.0f} mm and takes {force:.0f} N, the rope {tension:.0f} N"
+            + _beside([one for one in result["stops"] if one["stop"] == kind])
         )
     return lines
+
+
+def _shared(result: Result) -> list[str]:
+    """The rope that carries most of the sheave, and the one that carries least."""
+    if not result["sharing"]:
+        return []
+    ropes = result["sharing"]["ropes"]
+    most, least = max(ropes, key=lambda one: one["largest"]), min(ropes, key=lambda one: one["least"])
+    return [
+        f"ropes that differ: rope {ropes.index(most) + 1} carries up to {100.0 * most['largest']:.0f} %, rope "
+        f"{ropes.index(least) + 1} as little as {100.0 * least['least']:.0f} % of the sheave; equal ones {100 / len(ropes):.0f} %"
+    ]
+
+
+def _sharing(sharing: Result) -> list[Block]:
+    text = (
+        "The car goes slowly up and down; ropes of unequal length or stiffness share the sheave's weight, turn with it and slide "
+        "in their grooves where friction does not hold their difference. Quasi-static, without tilt of the sheave."
+    )
+    rows = [
+        (str(k), f"{100.0 * one['least']:.0f} to {100.0 * one['largest']:.0f}", f"{one['largest_pull']:.0f}",
+         f"{1e3 * one['slip']:.1f}")
+        for k, one in enumerate(sharing["ropes"], 1)
+    ]
+    head = ("rope", "share of the sheave [%]", "largest pull on one side of it [N]", "slip on a way down and up [mm]")
+    figure, (axes,) = panels(height=3.2)
+    count = (len(sharing["cars"]) + 1) // 2
+    for k, shares in enumerate(zip(*sharing["shares"], strict=True)):
+        colour = COLOURS[k % len(COLOURS)]
+        axes.plot(sharing["cars"][count:], [100.0 * one for one in shares[count:]], color=colour, label=f"rope {k + 1}, up")
+        axes.plot(sharing["cars"][:count], [100.0 * one for one in shares[:count]], "--", color=colour, linewidth=0.9)
+    label(axes, "height of the car [m]", "share of the sheave's weight [%]; dashed: down")
+    legend(axes)
+    return [text, Table(head, rows), Picture("design_sharing", figure)]
 
 
 def _clearances(result: Result) -> list[Block]:
@@ -74,6 +111,12 @@ def _clearances(result: Result) -> list[Block]:
     return [text, Table(("case", "clearance [mm]", "side", "at [m]", "car at [m]"), rows)]
 
 
+def _beside(stops: list[Result]) -> str:
+    """The least clearance in stops, if a wall is given."""
+    known = [one["clearance"] for one in stops if "clearance" in one]
+    return f"; clearance {1e3 * min(known):.0f} mm" if known else ""
+
+
 def _stops(result: Result) -> list[Block]:
     text = (
         "The car comes down from the top landing and is stopped as it passes each floor: by its drive, at 1 g, and by its safety "
@@ -82,11 +125,13 @@ def _stops(result: Result) -> list[Block]:
     )
     rows = [
         (one["stop"], f"{one['height']:.1f}", f"{one['speed']:.2f}", f"{1e3 * one['rise']:.1f}", f"{one['sheave_force']:.0f}",
-         f"{one['peak_tension']:.0f}", f"{one['slack_duration']:.2f}")
+         f"{one['peak_tension']:.0f}", f"{one['slack_duration']:.2f}",
+         *([f"{1e3 * one['clearance']:.0f}"] if "clearance" in one else []))
         for one in result["stops"]
     ]  # fmt: skip
     head = (
         "stop", "at [m]", "speed [m/s]", "rise of the sheave [mm]", "force on it [N]", "largest tension [N]", "slack for [s]",
+        *(["clearance [mm]"] if any("clearance" in one for one in result["stops"]) else []),
     )  # fmt: skip
     return [text, Table(head, rows)]
 

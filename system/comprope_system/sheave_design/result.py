@@ -13,6 +13,7 @@ from comprope.rope.effects import RopeModel
 from ..report.page import Section, save_page, save_pictures
 from ..report.result import Result
 from . import report
+from .rope_sharing import RopeSharing
 
 PAGE, RESULT = "design.html", "result.json"
 
@@ -25,7 +26,8 @@ class DesignResult(Result):
     the worst trip and the worst parked floor by mass, `full_model_runs` pairs of mass [kg] and swing [m], `sensors` the heights
     [m] on each side and the share of a large swing that they see. `stops`, if asked for, has for each kind of stop and floor the
     `speed` [m/s], the sheave's `rise` [m], its largest `sheave_force` [N], `peak_tension` of the rope [N] and `slack_duration`
-    [s]. `clearances`, if a wall is given, have the least `clearance` [m] of each `case`, and where it is.
+    [s], with a wall the least `clearance` [m]. `sharing` is how ropes that differ share the sheave. `clearances`, if a wall is
+    given, have the least `clearance` [m] of each `case`, and where it is.
     `model` is the model as given, `new_model` has the new sheave.
     """
 
@@ -40,6 +42,7 @@ class DesignResult(Result):
     new_model: RopeModel
     profile: Profile
     clearances: tuple[dict[str, Any], ...] = ()
+    sharing: RopeSharing | None = None
 
     def headline(self) -> str:
         """Smallest sheave mass, and the limit of the swing."""
@@ -55,6 +58,7 @@ class DesignResult(Result):
             **self.settings, "own_mass": self.model.sheave.mass, "mass_small": self.reduced_model_mass, "mass": self.sheave_mass,
             "scanned": list(self.scanned), "full": list(self.full_model_runs), "sensors": dict(self.sensors),
             "stops": list(self.stops), "clearances": list(self.clearances),
+            "sharing": self.sharing.to_json() if self.sharing else None,
         }  # fmt: skip
 
     def to_dataframe(self) -> pd.DataFrame:

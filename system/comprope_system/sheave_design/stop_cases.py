@@ -20,15 +20,16 @@ START = 1.0  # s at rest before the trip
 COLUMNS = ("stop", "height", "speed", "rise", "sheave_force", "peak_tension", "slack_duration")
 
 
-def stop_cases(model: RopeModel, profile: Profile, floors: int) -> list[dict[str, Any]]:
-    """One case for each kind of stop and each floor between the terminal landings, in what JSON can hold."""
+def stop_cases(model: RopeModel, profile: Profile, floors: int, wall: float | None = None) -> list[dict[str, Any]]:
+    """One case for each kind of stop and each floor between the terminal landings, in what JSON can hold; `wall` [m]."""
     table, limits = as_table(model), profile.model_dump()
     heights = floor_heights(model.shaft.height, floors)[1:-1].tolist()
-    return [{"model": table, "profile": limits, "stop": name, "height": height} for name in STOPS for height in heights]
+    same = {"model": table, "profile": limits, "wall": wall}
+    return [same | {"stop": name, "height": height} for name in STOPS for height in heights]
 
 
 def stop_case(case: Mapping[str, Any]) -> dict[str, Any]:
-    """A stop as the car passes a height: see COLUMNS for what it gives, in m, m/s, N and s."""
+    """A stop as the car passes a height: see COLUMNS for what it gives, in m, m/s, N and s; with a wall the `clearance` [m]."""
     model, profile = validated(case["model"], "case"), Profile.model_validate(case["profile"])
     top, stop = model.shaft.height, STOPS[case["stop"]]
     trip = plan_s_curve(profile, top, 0.0, START)
@@ -37,10 +38,12 @@ def stop_case(case: Mapping[str, Any]) -> dict[str, Any]:
         top, 0.0, profile.speed, profile.acceleration, profile.jerk, Drive(),
         stop=Stop(time, stop.deceleration, stop.safety_gear),
     )  # fmt: skip
-    table = simulate(model, motion, duration=time + AFTER).table
+    result = simulate(model, motion, duration=time + AFTER)
+    table = result.table
     rise = table["sheave_displacement"].max() - table["sheave_displacement"].iloc[0]
     values = (
         case["stop"], case["height"], -trip.at(time).velocity, float(rise), float(table["sheave_force"].max()),
         float(table["peak_element_tension"].iloc[-1]), float(table["slack_duration"].iloc[-1]),
     )  # fmt: skip
-    return dict(zip(COLUMNS, values, strict=True))
+    beside = {} if case["wall"] is None else {"clearance": result.clearance(case["wall"]).least.clearance}
+    return dict(zip(COLUMNS, values, strict=True)) | beside

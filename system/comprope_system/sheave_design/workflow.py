@@ -25,6 +25,7 @@ from ..tuning.task import reduced_model_of
 from .building_sway import BuildingSway, parked_departures
 from .clearance_cases import clearances
 from .result import DesignResult
+from .rope_sharing import RopeSet, share_sheave
 from .sensor_placement import choose_sensors
 from .stop_cases import stop_case, stop_cases
 from .trip_envelopes import envelopes, floor_heights, full_model_case, mass_case, model_with_sheave, trips_between
@@ -43,7 +44,7 @@ class DesignOptions:
     `swing_limit` [m] is the largest swing during and after a trip, `floors` the number of evenly spaced floors between which all
     trips count, `sway` that of the building, `sway_limit` [m] the largest swing in it, None if it is only computed; `sensors` is
     the number of sensors to place. With `stops` the new sheave goes through stops at every floor as well. With the distance of
-    the shaft's `wall` [m] the clearance is computed.
+    the shaft's `wall` [m] the clearance is computed, in stops too. `ropes` are those of the sheave, if they differ.
     """
 
     swing_limit: float = 0.010
@@ -53,6 +54,7 @@ class DesignOptions:
     sensors: int = 4
     stops: bool = False
     wall: float | None = None
+    ropes: RopeSet | None = None
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ def design(
             mass = max(mass, _least_mass(scanned, "sway", "sway_limit", _millimetres(options.sway_limit)))
         least, runs = _on_full_model(base, scanned, mass, options.swing_limit, sweeps)
         new_model = model_with_sheave(given, least)
-        asked = stop_cases(new_model, profile, options.floors) if options.stops else []
+        asked = stop_cases(new_model, profile, options.floors, options.wall) if options.stops else []
         stops = sweeps.values(stop_case, asked, "stops") if asked else []
     settings = {
         "model": model_name(model), "limit": options.swing_limit,
@@ -114,9 +116,11 @@ def design(
     sensors = _sensors(new_model, profile, options)
     worst = min(scanned, key=lambda one: abs(one["mass"] - least))
     beside = clearances(new_model, profile, worst, sway, options.wall) if options.wall is not None else []
+    sharing = share_sheave(new_model, options.ropes) if options.ropes else None
     return DesignResult(
-        settings, least, mass, tuple(scanned), tuple(runs), sensors, tuple(stops), given, new_model, profile, tuple(beside)
-    )
+        settings, least, mass, tuple(scanned), tuple(runs), sensors, tuple(stops), given, new_model, profile, tuple(beside),
+        sharing,
+    )  # fmt: skip
 
 
 def _millimetres(length: float) -> float:

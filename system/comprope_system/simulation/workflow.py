@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -33,7 +33,6 @@ from .timing import Timing
 from .trip_simulation import Simulated, relative_to_building
 from .trip_simulation import simulate as simulate_trip
 
-FIXED = ("shaft_walls", "rope_guides")  # effects of what is fixed to the building at its height
 MOVING = 0.1  # m/s: faster than a car that bounces on its hoist ropes at the end of a simulation
 SETTLE = 8.0  # s simulated after the trip, while the rope vibrates freely
 
@@ -82,6 +81,7 @@ def simulate(
     motion = motion or CarMotion()
     fmus = None if fmu is False else NamedFmus.read(() if fmu is True else fmu)
     rope_model, drive_changes = changed_model(model, changes)
+    rope_model = _with_walls(rope_model)
     names, measured = [sensor.name for sensor in rope_model.sensors], None
     if motion.measured:
         measured = _measured(motion, rope_model, names)
@@ -132,9 +132,14 @@ def _moving_building(model: RopeModel, measured: Run | None, timing: Timing) -> 
     if building is None:
         return None
     building.require_duration(timing.begin + timing.duration)
-    still = [name for name in FIXED if getattr(model.effects, name, None) is not None]
-    remarks = tuple(f"effects.{name}: stands still with the base, while the building moves" for name in still)
-    return replace(building, remarks=(*building.remarks, *remarks))
+    return building
+
+
+def _with_walls(model: RopeModel) -> RopeModel:
+    """The model whose walls and guides move with its building, if it has one, unless the file says how far they do."""
+    if model.building is None or "walls_follow" in model.shaft.model_fields_set:
+        return model
+    return with_changes(model, {"shaft.walls_follow": 1.0})
 
 
 def _advance(progress: Progress, recorder: FrameRecorder | None, before: int, count: int, total: int) -> None:

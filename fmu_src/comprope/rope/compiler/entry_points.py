@@ -46,6 +46,7 @@ from ..mechanics import (
     internal_tangent,
     run_record,
     sensors,
+    wall_motion,
 )
 from ..mechanics.contact import contact_law, contact_tangent, sheave_contact
 from ..parameters import parameter_vector
@@ -65,7 +66,8 @@ from .codegen import hook_source, lacks_tangents
 MODULES = (
     kernel_arguments, array_layout, status, axial_law, base_motion, internal_forces, internal_tangent, contact_law,
     contact_tangent, sheave_contact, end_conditions, equations_of_motion, block_band, bordered_band, newmark, energy,
-    run_record, time_stepping, static_equilibrium, mesh, initial_state, input_interpolation, sensors, outputs, simd, multi_rhs,
+    run_record, wall_motion, time_stepping, static_equilibrium, mesh, initial_state, input_interpolation, sensors, outputs,
+    simd, multi_rhs,
     internal_force_derivatives, sheave_contact_derivatives, directions, effect_derivatives, end_condition_derivatives,
     force_derivatives, newmark_derivatives, sensor_derivatives, static_equilibrium_derivatives,
 )  # fmt: skip

@@ -8,6 +8,7 @@ from ..mechanics.end_conditions import PATH, PATHS, place_ends_of_state
 from ..mechanics.energy import begin_balance
 from ..mechanics.equations_of_motion import forces_of_state
 from ..mechanics.run_record import record_step, slack_segments
+from ..mechanics.wall_motion import clear_wall_motion, set_wall_motion
 from ..parameters.parameter_vector import ELEMENT, HEIGHT, PIT, RATIO, R
 from ..runtime.kernel_arguments import Ends, Motion, RopeData, State, Weights, Workspace
 from ..runtime.status import NO_EQUILIBRIUM, OUT_OF_PLACE, OUT_OF_REACH, SUCCESS
@@ -80,6 +81,8 @@ def start_at_rest(rope: RopeData, ends: Ends, state: State, work: Workspace, t: 
     initial_guess(n, p, u, q)
     fix_ends(p, u, ends.path)
     place_ends_of_state(rope, ends, state, t, 1.0, 0.0)
+    set_wall_motion(p, ends.path, 1.0, 0.0)
+    set_wall_motion(rope.frictionless, ends.path, 1.0, 0.0)
     for i in range(2 * (n + 1)):
         v[i] = 0.0
         a[i] = 0.0
@@ -96,4 +99,5 @@ def start_at_rest(rope: RopeData, ends: Ends, state: State, work: Workspace, t: 
     begin_balance(rope, state, work)
     record_step(n, t, 0.0, p, q, work.w, state.record)
     p[RATIO] = ratio
+    clear_wall_motion(p)
     return SUCCESS

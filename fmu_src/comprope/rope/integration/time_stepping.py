@@ -6,6 +6,7 @@ from ...kernels.jit import kernel
 from ..mechanics.end_conditions import PATH
 from ..mechanics.energy import update_balance
 from ..mechanics.run_record import SLACK_NOW, pushed_segments, record_step
+from ..mechanics.wall_motion import clear_wall_motion, set_wall_motion
 from ..parameters.parameter_vector import BASE, BASE_BEFORE, ELEMENT, RATIO, slot
 from ..runtime.kernel_arguments import Directions, Ends, Motion, RopeData, State, TimeStep, Workspace
 from ..runtime.status import LOST, LOST_AT_SHEAVE, SUCCESS, TOO_MANY_STEPS
@@ -34,6 +35,7 @@ def advance(
         return TOO_MANY_STEPS
     reached = take_steps(rope, ends, dt, steps, state, motion, work, directions)
     p[BASE], p[BASE_BEFORE] = 0.0, 0.0
+    clear_wall_motion(p)
     if reached == 1.0:
         state.time[0] = t0 + dt
         return SUCCESS
@@ -58,6 +60,7 @@ def take_steps(rope, ends, dt, steps, state, motion, work, directions):
             p[RATIO] = ratio if slack else 1.0
             p[BASE_BEFORE] = base[0] + (k + done) / steps * (base[1] - base[0])
             p[BASE] = base[0] + s * (base[1] - base[0])
+            set_wall_motion(p, path, dt, s)
             if newmark_step(rope.n, p, path, step, state, motion, work):
                 if not slack and ratio != 1.0 and pushed_segments(rope.n, p, work.w) > 0:
                     slack, size = True, min(size, slack_share(dt / steps))

@@ -16,6 +16,10 @@ class Shaft(Component):
     height: float = quantity("m", "travel from bottom to top landing", 1.0, 1000.0, nominal=50.0)
     pit: float = quantity("m", "sheave axle below the rope's end at the bottom landing, as built", 0.3, 20.0, nominal=1.5)
     gravity: float = quantity("m/s2", "acceleration of gravity", 1.0, 30.0, default=9.81)
+    walls_follow: float = quantity(
+        "1", "share of the lateral motion of the rope's ends, in proportion to the height above the axle, by which walls, "
+        "brushes and guides move: 1 in a building that moves", 0.0, 1.0, default=0.0,
+    )  # fmt: skip
 
 
 class Rope(Component):

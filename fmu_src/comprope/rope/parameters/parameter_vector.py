@@ -2,8 +2,8 @@
 
 Slots are compile-time constants in the kernels. Base components come first, then effects in the
 order in which they register. Derived are `element`, since the mesh makes the natural length exact, one rope's share of the
-sheave's mass and inertia, with which the kernels compute, and the acceleration of the building's base, which is zero outside
-of the time steps.
+sheave's mass and inertia, with which the kernels compute, and the motion of the building's base and walls, which is zero
+outside of the time steps.
 """
 
 from collections.abc import Mapping
@@ -34,6 +34,11 @@ for _name, _when in (("acceleration", "at the end of a time step"), ("accelerati
     DECLARED[f"derived.base_{_name}"] = Quantity(
         f"base_{_name}", "m/s2", f"acceleration of the building's base {_when}", -100.0, 100.0, 0.0, 1.0, None
     )
+for _end in ("car", "counterweight"):
+    for _unit, _what in (("m", "displacement"), ("m/s", "velocity")):
+        _name = f"{_end}_wall_{_what}"
+        _help = f"{_what} of the walls at the height of the {_end}'s end, towards the counterweight's side"
+        DECLARED[f"derived.{_name}"] = Quantity(_name, _unit, _help, -100.0, 100.0, 0.0, 1.0, None)
 
 
 def slot(name: str) -> int:
@@ -71,3 +76,8 @@ HEIGHT = slot("shaft.height")
 ELEMENT = slot("derived.element")
 BASE = slot("derived.base_acceleration")
 BASE_BEFORE = slot("derived.base_acceleration_before")
+WALLS_FOLLOW = slot("shaft.walls_follow")
+CAR_WALL = slot("derived.car_wall_displacement")
+CAR_WALL_V = slot("derived.car_wall_velocity")
+COUNTERWEIGHT_WALL = slot("derived.counterweight_wall_displacement")
+COUNTERWEIGHT_WALL_V = slot("derived.counterweight_wall_velocity")

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 import comprope_system
+from comprope.errors import InputError
 
 from .._parameters import EXECUTOR, JOBS
 from .._terminal import OutputFile, finish, progress_display, require_files
@@ -27,6 +28,10 @@ SET = Annotated[
 ]
 STOPS = Annotated[bool, typer.Option("--stops", help="Stop the car at every floor too: rise of the sheave, forces, slack.")]
 WALL = Annotated[float | None, typer.Option(metavar="MM", help="Distance of the shaft's wall: clearance of the rope.")]
+ROPE_LENGTHS = Annotated[
+    str | None, typer.Option(metavar="MM,MM,...", help="Ropes of one sheave: how much longer each is; how they share it.")
+]
+ROPE_STIFFNESS = Annotated[str | None, typer.Option(metavar="X,X,...", help="EA of each of these ropes over the model's.")]
 OUT = Annotated[Path, typer.Option(metavar="DIR", help="Folder for HTML page, figures and result.json.")]
 JSON = Annotated[Path | None, typer.Option(metavar="F.json", help="Write the result to this file as well.")]
 
@@ -49,6 +54,16 @@ class Demands:
     changes: SET = None
     stops: STOPS = False
     wall: WALL = None
+    rope_lengths: ROPE_LENGTHS = None
+    rope_stiffness: ROPE_STIFFNESS = None
+
+    @property
+    def ropes(self) -> "comprope_system.RopeSet | None":
+        """The ropes of the sheave, if they differ."""
+        lengths, stiffness = _numbers("rope-lengths", self.rope_lengths), _numbers("rope-stiffness", self.rope_stiffness)
+        if not lengths and not stiffness:
+            return None
+        return comprope_system.RopeSet(tuple(1e-3 * one for one in lengths) or (0.0,) * len(stiffness), stiffness)
 
     @property
     def options(self) -> "comprope_system.DesignOptions":
@@ -58,7 +73,17 @@ class Demands:
             sway = comprope_system.BuildingSway(1e-3 * self.sway_amplitude, self.sway_period, self.sway_duration)
         sway_limit = None if self.sway_limit is None else 1e-3 * self.sway_limit
         wall = None if self.wall is None else 1e-3 * self.wall
-        return comprope_system.DesignOptions(1e-3 * self.limit, self.floors, sway, sway_limit, self.sensors, self.stops, wall)
+        return comprope_system.DesignOptions(
+            1e-3 * self.limit, self.floors, sway, sway_limit, self.sensors, self.stops, wall, self.ropes
+        )
+
+
+def _numbers(option: str, text: str | None) -> tuple[float, ...]:
+    """The numbers of an option; raises `InputError` for anything else."""
+    try:
+        return tuple(float(one) for one in text.split(",")) if text else ()
+    except ValueError:
+        raise InputError(f"{option} = {text}: numbers separated by commas are accepted") from None
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,9 @@ NODES, TIME, CAR = 120, 0.3, 20.7
 STEP = 1e-6  # of positions [m], velocities [m/s], curvatures [1/m], angles [rad] and times [s], to take differences
 
 
+AT_REST = ("derived.base_", "derived.car_wall_", "derived.counterweight_wall_")  # of the building
+
+
 class TrialState:
     """A rope at random with an effect's quantities at their nominal or neutral values; `call` runs one of its hooks."""
 
@@ -37,6 +40,8 @@ class TrialState:
         quantity, own = DECLARED[name], name.startswith(f"effects.{self.effect.name}.")
         if nominal and name in self.effect.brings:
             return self.effect.brings[name]
+        if name.startswith(AT_REST):
+            return quantity.neutral
         base = not name.startswith("effects.")
         return quantity.nominal if base or (own and nominal) else quantity.neutral
 

@@ -7,7 +7,8 @@ With the outward displacement u of the rope from the vertical through the sheave
 
 The guide presses one way only (unilateral contact with Coulomb friction): with a positive push it stands inside of the rope and
 pushes it outward, with a negative one outside. Both are spread over the rope with weights cos^2(pi d / (2 length)), d the
-distance from their height, whose sum over nodes is the same wherever these are.
+distance from their height, whose sum over nodes is the same wherever these are. They move with the building by
+`shaft.walls_follow`.
 """
 
 from math import copysign, cos, pi, sqrt
@@ -15,7 +16,8 @@ from typing import ClassVar
 
 from ....kernels.jit import kernel
 from ....quantities import quantity
-from ...parameters.parameter_vector import ELEMENT, R, slot
+from ...mechanics.wall_motion import wall_motion
+from ...parameters.parameter_vector import CAR_WALL, CAR_WALL_V, COUNTERWEIGHT_WALL, COUNTERWEIGHT_WALL_V, ELEMENT, R, slot
 from ...runtime.array_layout import DXX, DYY
 from ..base import Effect, acts, register
 
@@ -80,11 +82,13 @@ def brush(n, t, p, q, v, w, f):
     if p[BRUSH_STIFFNESS] == 0.0 and p[BRUSH_DAMPING] == 0.0:
         return 0.0
     m, power = n + 1, 0.0
+    walls = p[CAR_WALL], p[CAR_WALL_V], p[COUNTERWEIGHT_WALL], p[COUNTERWEIGHT_WALL_V]
     for i in range(1, n - 1):
         part = share(p, q[i], q[m + i], p[BRUSH_HEIGHT], p[BRUSH_SIDE], p[BRUSH_LENGTH])
         if part > 0.0:
-            out = q[m + i] - copysign(p[R], q[m + i])
-            force = part * (p[BRUSH_STIFFNESS] * out + p[BRUSH_DAMPING] * v[m + i])
+            moved, rate = wall_motion(n, q, i, walls)
+            out = q[m + i] - moved - copysign(p[R], q[m + i])
+            force = part * (p[BRUSH_STIFFNESS] * out + p[BRUSH_DAMPING] * (v[m + i] - rate))
             f[m + i] -= force
             power -= force * v[m + i]
     return power
@@ -101,10 +105,10 @@ def brush_tangent(n, t, p, q, v, w, A, weights):
 
 
 @kernel
-def pressure(p, y):
-    """Outward force per stiffness [m] of the guide on a rope at y: zero where it does not touch."""
+def pressure(p, out):
+    """Outward force per stiffness [m] of the guide on a rope that is `out` from the middle: zero where it does not touch."""
     sense = copysign(1.0, p[PUSH])
-    return sense * max(0.0, abs(p[PUSH]) - sense * (abs(y) - p[R]))
+    return sense * max(0.0, abs(p[PUSH]) - sense * (out - p[R]))
 
 
 @kernel
@@ -113,10 +117,13 @@ def guide(n, t, p, q, v, w, f):
     if p[GUIDE_STIFFNESS] == 0.0:
         return 0.0
     m, power = n + 1, 0.0
+    walls = p[CAR_WALL], p[CAR_WALL_V], p[COUNTERWEIGHT_WALL], p[COUNTERWEIGHT_WALL_V]
     for i in range(1, n - 1):
         part = share(p, q[i], q[m + i], p[GUIDE_HEIGHT], p[GUIDE_SIDE], p[GUIDE_LENGTH])
         if part > 0.0:
-            force = copysign(1.0, q[m + i]) * p[GUIDE_STIFFNESS] * part * pressure(p, q[m + i])
+            moved, _ = wall_motion(n, q, i, walls)
+            side = copysign(1.0, q[m + i])
+            force = side * p[GUIDE_STIFFNESS] * part * pressure(p, side * (q[m + i] - moved))
             drag = p[GUIDE_MU] * abs(force) * v[i] / sqrt(v[i] * v[i] + SLOW * SLOW)
             f[m + i] += force
             f[i] -= drag
@@ -130,9 +137,11 @@ def guide_tangent(n, t, p, q, v, w, A, weights):
     if p[GUIDE_STIFFNESS] == 0.0:
         return
     m = n + 1
+    walls = p[CAR_WALL], p[CAR_WALL_V], p[COUNTERWEIGHT_WALL], p[COUNTERWEIGHT_WALL_V]
     for i in range(1, n - 1):
         k = p[GUIDE_STIFFNESS] * share(p, q[i], q[m + i], p[GUIDE_HEIGHT], p[GUIDE_SIDE], p[GUIDE_LENGTH])
-        depth = abs(pressure(p, q[m + i]))
+        moved, _ = wall_motion(n, q, i, walls)
+        depth = abs(pressure(p, copysign(1.0, q[m + i]) * (q[m + i] - moved)))
         if k > 0.0 and depth > 0.0:
             root = 1.0 / sqrt(v[i] * v[i] + SLOW * SLOW)
             A[DYY * m + i] += weights.ck * k

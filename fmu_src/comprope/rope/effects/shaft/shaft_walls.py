@@ -5,6 +5,7 @@ At a node with outward displacement u beyond the wall's distance, per length of 
     P = max(0, k d + c d / (d + FADE) dd/dt)  inward,   F = -mu P v / sqrt(v^2 + SLOW^2)  along the wall,
 
 so that damping does not switch on at first touch. Over one element at either end of the range the wall fades in.
+It moves with the building by `shaft.walls_follow`.
 """
 
 from math import copysign, sqrt
@@ -12,7 +13,8 @@ from math import copysign, sqrt
 from ....kernels.jit import kernel
 from ....quantities import quantity
 from ...mechanics.contact.contact_law import unilateral_law
-from ...parameters.parameter_vector import ELEMENT, R, slot
+from ...mechanics.wall_motion import wall_motion
+from ...parameters.parameter_vector import CAR_WALL, CAR_WALL_V, COUNTERWEIGHT_WALL, COUNTERWEIGHT_WALL_V, ELEMENT, R, slot
 from ...runtime.array_layout import DXX, DYY
 from ..base import Effect, acts, register
 
@@ -62,11 +64,14 @@ def press(n, t, p, q, v, w, f):
     if p[STIFFNESS] == 0.0 and p[DAMPING] == 0.0:
         return 0.0
     m, power = n + 1, 0.0
+    walls = p[CAR_WALL], p[CAR_WALL_V], p[COUNTERWEIGHT_WALL], p[COUNTERWEIGHT_WALL_V]
     for i in range(1, n - 1):
-        depth = abs(q[m + i]) - p[R] - p[DISTANCE]
+        moved, rate = wall_motion(n, q, i, walls)
+        side = copysign(1.0, q[m + i])
+        depth = side * (q[m + i] - moved) - p[R] - p[DISTANCE]
         if depth > 0.0:
-            side, share = copysign(1.0, q[m + i]), wall_share(p, -q[i])
-            force = share * wall_law(p, depth, side * v[m + i])[0]
+            share = wall_share(p, -q[i])
+            force = share * wall_law(p, depth, side * (v[m + i] - rate))[0]
             drag = p[MU] * force * v[i] / sqrt(v[i] * v[i] + SLOW * SLOW)
             f[m + i] -= side * force
             f[i] -= drag
@@ -80,11 +85,14 @@ def press_tangent(n, t, p, q, v, w, A, weights):
     if p[STIFFNESS] == 0.0 and p[DAMPING] == 0.0:
         return
     m = n + 1
+    walls = p[CAR_WALL], p[CAR_WALL_V], p[COUNTERWEIGHT_WALL], p[COUNTERWEIGHT_WALL_V]
     for i in range(1, n - 1):
-        depth = abs(q[m + i]) - p[R] - p[DISTANCE]
+        moved, rate = wall_motion(n, q, i, walls)
+        side = copysign(1.0, q[m + i])
+        depth = side * (q[m + i] - moved) - p[R] - p[DISTANCE]
         if depth > 0.0:
             share = wall_share(p, -q[i])
-            force, by_depth, by_rate = wall_law(p, depth, copysign(1.0, q[m + i]) * v[m + i])
+            force, by_depth, by_rate = wall_law(p, depth, side * (v[m + i] - rate))
             root = 1.0 / sqrt(v[i] * v[i] + SLOW * SLOW)
             A[DYY * m + i] += share * (weights.ck * by_depth + weights.cc * by_rate)
             A[DXX * m + i] += weights.cc * share * p[MU] * force * SLOW * SLOW * root * root * root
