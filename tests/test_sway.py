@@ -88,3 +88,48 @@ def test_bad_values_are_told_all_at_once() -> None:
         "floors = 1: 2 to 200 is accepted",
         "duration = 0 s: 1 to 7200 s is accepted",
     ]
+
+
+def test_a_bracket_is_reached_where_the_swing_at_its_height_is_larger() -> None:
+    """Half the largest swing of a side at rest in the middle of it is reached at its middle, twice as much nowhere."""
+    period, options = side_string(TOWER, 30.0, "counterweight").period(), {"amplitude": 0.01, "floors": 2, "positions": 6}
+    asked = {"duration": 20.0, "periods": 4, "verify": 0, "period": period}
+    parked, sway = parked_rope(TOWER, 30.0), Sway(0.01, 20.0, 0.005)
+    largest = parked.amplitudes(sway, period)[1]
+    middle = float(parked.heights[1][np.argmax(parked.profile(sway, period)[1])])
+    assert parked.at_heights(sway, period, np.array([middle, 49.0]))[1] == pytest.approx([largest, 0.0])
+    brackets = ((middle, 0.5 * largest), (middle, 4.0 * largest))
+    found = comprope_system.sway(TOWER, comprope_system.SwayOptions(**options, **asked, brackets=brackets))
+    near, far = found.brackets
+    assert 30.0 in near.cars
+    assert far.cars == ()
+    assert near.swing == far.swing >= largest
+    assert "the rope may catch with the car at" in found.summary()
+    assert f"{1e3 * far.distance:g} mm: swing of up to" in found.summary()
+
+
+def test_trips_at_two_speeds_swing_and_the_limit_tells_which_are_kept() -> None:
+    """The full model, through the resonance of a side."""
+    asked = {"amplitude": 0.02, "floors": 2, "positions": 2, "duration": 20.0, "periods": 2, "verify": 0}
+    options = comprope_system.SwayOptions(**asked, period=2.6, limit=0.5, speeds=(2.5, 5.0))
+    found = comprope_system.sway(TOWER, options)
+    assert [speed for speed, _, _ in found.speeds] == [2.5, 5.0]
+    swings = np.array(found.speeds)[:, 1:]
+    assert 0.01 < swings.min() < swings.max() < 0.5
+    assert swings[0].max() > swings[1].max()  # slower, so longer in the resonance
+    assert "within 500 mm at 2.5, 5 m/s" in found.summary()
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--brackets", "60"], "brackets = 60: heights in m and distances in mm such as 60:400,80:350 are accepted"),
+        (["--brackets", "60:0"], "brackets: 0 m at 60 m; a distance of 0.01 to 20 m"),
+        (["--speeds", "2"], "speeds: accepted with the period of the building"),
+        (["--speeds", "x", "--period", "3"], "speeds = x: numbers separated by commas are accepted"),
+    ],
+)
+def test_bad_brackets_and_speeds_are_refused(options: list[str], sentence: str) -> None:
+    told = CliRunner().invoke(cli.app, ["sway", "tower50", *options])
+    assert told.exit_code != 0
+    assert sentence in str(told.exception)

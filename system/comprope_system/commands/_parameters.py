@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
+from comprope.errors import InputError
+
 from ._terminal import OutputFile, finish, require_files
 
 if TYPE_CHECKING:
@@ -25,6 +27,14 @@ FMU = Annotated[Path | None, typer.Option("--fmu", metavar="DIR", help="Write th
 JOBS = Annotated[int | None, typer.Option(metavar="N", min=1, help="Number of processes; default one per core.")]
 EXECUTOR = Annotated[str | None, typer.Option(metavar="dask://HOST:PORT", help="Run on a Dask cluster.")]
 ROPE_FMU = "CompensationRope.fmu"  # in the folder of --fmu
+
+
+def numbers(option: str, text: str | None) -> tuple[float, ...]:
+    """The numbers of an option; raises `InputError` for anything else."""
+    try:
+        return tuple(float(one) for one in text.split(",")) if text else ()
+    except ValueError:
+        raise InputError(f"{option} = {text}: numbers separated by commas are accepted") from None
 
 
 @dataclass(frozen=True)

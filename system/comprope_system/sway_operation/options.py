@@ -19,7 +19,9 @@ class SwayOptions:
 
     `amplitude` [m] at the top landing and `duration` [s]; `damping` ratio of the rope's modes; floors are listed at which the
     swing exceeds `limit` [m], with the building's `period` [s] for periods within `spread` of it. The map has so many car
-    `positions` and `periods`; `verify` cells of it, the largest ones first, are simulated with the full model.
+    `positions` and `periods`; `verify` cells of it, the largest ones first, are simulated with the full model. `brackets` are
+    pairs of height and outward distance from the vertical through the sheave's side [m]; trips through the whole shaft at
+    `speeds` [m/s] are simulated in the building's `period`.
     """
 
     amplitude: float = 0.05
@@ -32,6 +34,8 @@ class SwayOptions:
     positions: int = 31
     periods: int = 48
     verify: int = 2
+    brackets: tuple[tuple[float, float], ...] = ()
+    speeds: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         """Raises `InputError` with all values that are not accepted."""
@@ -40,6 +44,14 @@ class SwayOptions:
             for name, (low, high, unit) in LIMITS.items()
             if (value := getattr(self, name)) is not None and not low <= value <= high
         ]
+        wrong += [
+            f"brackets: {distance:g} m at {height:g} m; a distance of 0.01 to 20 m at -20 to 1000 m is accepted"
+            for height, distance in self.brackets
+            if not (0.01 <= distance <= 20.0 and -20.0 <= height <= 1000.0)
+        ]
+        wrong += [f"speeds: {one:g} m/s; 0.1 to 25 m/s is accepted" for one in self.speeds if not 0.1 <= one <= 25.0]
+        if self.speeds and self.period is None:
+            wrong.append("speeds: accepted with the period of the building")
         if wrong:
             raise InputError("\n".join(wrong))
 

@@ -43,9 +43,9 @@ class Sway:
 class ParkedRope:
     """The linearised rope of a car parked at `car` [m].
 
-    `rates` (k,) are its angular frequencies, `gains` (k,) how the sway drives them; at READ nodes of each side `shapes`
-    (side, READ, k) are those of the modes, and `static` (side, READ) is the static shape less the building's, per displacement of
-    the top.
+    `rates` (k,) are its angular frequencies, `gains` (k,) how the sway drives them; at READ nodes of each side, at `heights`
+    (side, READ) [m], `shapes` (side, READ, k) are those of the modes, and `static` (side, READ) is the static shape less the
+    building's, per displacement of the top.
     """
 
     car: float
@@ -53,9 +53,20 @@ class ParkedRope:
     gains: Floats
     shapes: Floats
     static: Floats
+    heights: Floats
 
     def amplitudes(self, sway: Sway, period: float) -> Floats:
         """Largest displacement relative to the building [m] of car's and counterweight's side (2,) at a period [s] of it."""
+        return np.asarray(self.profile(sway, period).max(axis=1))
+
+    def at_heights(self, sway: Sway, period: float, wanted: Floats) -> Floats:
+        """The same at some heights [m] (2, heights); zero where there is no rope."""
+        order, found = np.argsort(self.heights, axis=1), self.profile(sway, period)
+        sides = zip(order, self.heights, found, strict=True)
+        return np.array([np.interp(wanted, at[k], one[k], left=0.0, right=0.0) for k, at, one in sides])
+
+    def profile(self, sway: Sway, period: float) -> Floats:
+        """The same at the heights of READ nodes of each side (2, READ)."""
         W, w, z = 2.0 * np.pi / period, self.rates, max(sway.damping, LEAST_DAMPING)
         t = np.arange(0.0, sway.duration, STEP)[:, None]
         steady = self.gains * W**2 / (w**2 - W**2 + 2j * z * w * W)
@@ -63,7 +74,7 @@ class ParkedRope:
         cosine, sine = -steady.real, (-z * w * steady.real + W * steady.imag) / (w * np.sqrt(1.0 - z * z))
         q = (steady * np.exp(1j * W * t)).real + decay * (cosine * np.cos(damped * t) + sine * np.sin(damped * t))
         moved = self.static[:, None, :] * np.cos(W * t) + np.einsum("tk,srk->str", q, self.shapes, optimize=True)
-        return sway.amplitude * np.asarray(np.abs(moved).max(axis=(1, 2)))
+        return sway.amplitude * np.asarray(np.abs(moved).max(axis=1))
 
 
 def parked_rope(model: Base, car: float) -> ParkedRope:
@@ -83,6 +94,7 @@ def parked_rope(model: Base, car: float) -> ParkedRope:
     return ParkedRope(
         car, 2.0 * np.pi / np.array([one.period for one in kept]), gains,
         np.array([shapes[:, at, 1].T for at in places]), np.array([static[at, 1] - share[at] for at in places]),
+        np.array([found.heights[at] for at in places]),
     )  # fmt: skip
 
 

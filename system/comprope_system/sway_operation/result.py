@@ -35,11 +35,33 @@ class Verified:
     full: tuple[float, ...]
 
 
+@dataclass(frozen=True)
+class Bracket:
+    """A bracket at a `height` and `distance` [m]: the largest `swing` there [m], with the car at `car` [m], on a `side`.
+
+    `cars` are the car positions [m] at which the swing reaches it, so that the rope may catch behind it.
+    """
+
+    height: float
+    distance: float
+    swing: float
+    side: str
+    car: float
+    cars: tuple[float, ...]
+
+    def __str__(self) -> str:
+        at = f"bracket at {self.height:g} m, {1e3 * self.distance:g} mm"
+        most = f"swing of up to {1e3 * self.swing:.0f} mm on the {self.side}'s side, car at {self.car:g} m"
+        caught = ", ".join(f"{one:.1f}" for one in self.cars)
+        return f"{at}: {most}; " + (f"the rope may catch with the car at {caught} m" if self.cars else "not reached")
+
+
 @dataclass(frozen=True, repr=False)
 class SwayResult(Result):
     """Swing (2, cars, periods) [m] of car's and counterweight's side at car positions [m] and periods of the building [s].
 
-    `floors` are pairs of height [m] and largest swing [m] there, in the period of the building that was asked for, or any.
+    `floors` are pairs of height [m] and largest swing [m] there, in the period of the building that was asked for, or any;
+    `brackets` what the swing is at each of them then, and `speeds` a speed [m/s] and the swing [m] up and down at it.
     """
 
     model_name: str
@@ -50,6 +72,8 @@ class SwayResult(Result):
     swing: Floats
     floors: tuple[tuple[float, float], ...]
     verified: tuple[Verified, ...]
+    brackets: tuple[Bracket, ...] = ()
+    speeds: tuple[tuple[float, float, float], ...] = ()
 
     @property
     def avoided(self) -> list[float]:
@@ -77,6 +101,8 @@ class SwayResult(Result):
         ]
         best, swing = min(self.floors, key=lambda one: one[1])
         lines.append(f"least at the floor at {best:.1f} m: {1e3 * swing:.0f} mm")
+        lines += [str(one) for one in self.brackets]
+        lines += _speed_lines(self)
         lines += [
             f"full model, car at {one.car:g} m, {one.period:.2f} s, undamped: {_millimetres(one.full)}; linearised "
             f"{_millimetres(one.linear)}"
@@ -90,7 +116,8 @@ class SwayResult(Result):
             "model": self.model_name, "options": vars(self.options), "cars": self.cars.tolist(), "periods": self.periods.tolist(),
             **{f"{side}_swing": self.swing[k].tolist() for k, side in enumerate(SIDES)},
             "floors": [{"height": height, "swing": swing, "avoid": swing > self.options.limit} for height, swing in self.floors],
-            "verified": [vars(one) for one in self.verified],
+            "verified": [vars(one) for one in self.verified], "brackets": [vars(one) for one in self.brackets],
+            "speeds": [{"speed": speed, "up": up, "down": down} for speed, up, down in self.speeds],
         }  # fmt: skip
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -121,6 +148,17 @@ class SwayResult(Result):
                 "Largest swing of car's and counterweight's side without damping",
             ),
         ]  # fmt: skip
+        if self.brackets:
+            rows = [
+                (f"{one.height:g}", f"{1e3 * one.distance:g}", f"{1e3 * one.swing:.0f}", one.side, f"{one.car:g}",
+                 ", ".join(f"{car:.1f}" for car in one.cars))
+                for one in self.brackets
+            ]  # fmt: skip
+            head = ("bracket at [m]", "distance [mm]", "swing [mm]", "side", "car at [m]", "may catch with the car at [m]")
+            blocks.append(Table(head, rows, "Swing at brackets, car parked"))
+        if self.speeds:
+            trips = [(f"{speed:g}", f"{1e3 * up:.0f}", f"{1e3 * down:.0f}") for speed, up, down in self.speeds]
+            blocks.append(Table(("speed [m/s]", "up [mm]", "down [mm]"), trips, "Swing on trips through the shaft, full model"))
         save_page(path, self.headline(), LEAD, [Section("sway", "Swing in a swaying building", blocks)])
 
     def plot(self) -> Figure:
@@ -148,6 +186,15 @@ class SwayResult(Result):
         legend(axes[0], loc="lower left", labelcolor="white")
         figure.colorbar(mesh, ax=list(axes), label="swing relative to the building [mm]")
         return figure
+
+
+def _speed_lines(result: SwayResult) -> list[str]:
+    """Swing on trips at each speed, and which speeds keep the limit."""
+    if not result.speeds:
+        return []
+    swings = "; ".join(f"{speed:g} m/s {1e3 * max(up, down):.0f} mm" for speed, up, down in result.speeds)
+    kept = ", ".join(f"{speed:g}" for speed, up, down in result.speeds if max(up, down) <= result.options.limit)
+    return [f"trips through the shaft: {swings}; within {1e3 * result.options.limit:g} mm at {f'{kept} m/s' if kept else 'none'}"]
 
 
 def _millimetres(values: tuple[float, ...]) -> str:

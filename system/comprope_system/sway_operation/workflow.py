@@ -10,8 +10,9 @@ from ..presets.inputs import ModelInput, model_name, read_model, require_still_b
 from ..presets.overrides import Changes
 from .full_simulation import simulated_amplitudes
 from .options import SwayOptions
-from .parked_response import ParkedRope, Sway, parked_rope
-from .result import SwayResult, Verified
+from .parked_response import SIDES, ParkedRope, Sway, parked_rope
+from .result import Bracket, SwayResult, Verified
+from .travelling_response import travelling_swing
 
 __all__ = ["SwayOptions", "sway"]
 SAME = 1e-5  # m or s, up to which heights and periods are equal
@@ -29,6 +30,7 @@ def sway(
     options = options or SwayOptions()
     given = require_still_building(read_model(model, changes), "the map of sway")
     cars, periods = _grid(given, options)
+    beside = list[np.ndarray]()
     found, heights, floors = np.zeros((2, len(cars), len(periods))), _floors(given, options), list[tuple[float, float]]()
     for i, car in enumerate(cars):
         parked = parked_rope(given, float(car))
@@ -36,8 +38,13 @@ def sway(
         if np.abs(heights - car).min() < SAME:
             floors.append((float(car), _floor_swing(parked, options, periods, found[:, i])))
         progress("positions of the car", i + 1, len(cars))
+        beside.append(_beside(parked, options, periods))
     verified = tuple(_verified(given, options, cars, periods, found, progress))
-    return SwayResult(model_name(model), given, options, cars, periods, found, tuple(floors), verified)
+    speeds = [(speed, *travelling_swing(given, options.sway, options.period or 0.0, speed).tolist()) for speed in options.speeds]
+    return SwayResult(
+        model_name(model), given, options, cars, periods, found, tuple(floors), verified,
+        _brackets(options, cars, np.array(beside)), tuple(speeds),
+    )  # fmt: skip
 
 
 def _floors(model: RopeModel, options: SwayOptions) -> np.ndarray:
@@ -47,12 +54,43 @@ def _floors(model: RopeModel, options: SwayOptions) -> np.ndarray:
 
 def _floor_swing(parked: ParkedRope, options: SwayOptions, periods: np.ndarray, swing: np.ndarray) -> float:
     """Largest swing [m] in the building's periods that count, the rope's own among them, as these are narrow."""
-    low, high = periods[0], periods[-1]
-    if options.period is not None:
-        low, high = options.period * (1.0 - options.spread), options.period * (1.0 + options.spread)
-    kept, own = (periods >= low - SAME) & (periods <= high + SAME), 2.0 * np.pi / parked.rates
-    resonant = [parked.amplitudes(options.sway, float(one)).max() for one in own if low <= one <= high]
+    low, high = _range(options, periods)
+    kept = (periods >= low - SAME) & (periods <= high + SAME)
+    resonant = [parked.amplitudes(options.sway, float(one)).max() for one in _own(parked, low, high)]
     return float(max([swing[:, kept].max(), *resonant]))
+
+
+def _range(options: SwayOptions, periods: np.ndarray) -> tuple[float, float]:
+    """Least and largest period [s] that count."""
+    if options.period is None:
+        return float(periods[0]), float(periods[-1])
+    return options.period * (1.0 - options.spread), options.period * (1.0 + options.spread)
+
+
+def _own(parked: ParkedRope, low: float, high: float) -> list[float]:
+    """Natural periods of the rope in a range [s]."""
+    return [float(one) for one in 2.0 * np.pi / parked.rates if low <= one <= high]
+
+
+def _beside(parked: ParkedRope, options: SwayOptions, periods: np.ndarray) -> np.ndarray:
+    """Largest swing [m] of both sides at each bracket (2, brackets) in the periods that count, the rope's own among them."""
+    if not options.brackets:
+        return np.zeros((2, 0))
+    low, high = _range(options, periods)
+    counted = [*(float(one) for one in periods if low - SAME <= one <= high + SAME), *_own(parked, low, high)]
+    heights = np.array([height for height, _ in options.brackets])
+    return np.max([parked.at_heights(options.sway, one, heights) for one in counted], axis=0)
+
+
+def _brackets(options: SwayOptions, cars: np.ndarray, swings: np.ndarray) -> tuple[Bracket, ...]:
+    """What the swing (cars, 2, brackets) [m] is at each bracket, and the car positions at which it is reached."""
+    found = []
+    for k, (height, distance) in enumerate(options.brackets):
+        at = swings[:, :, k]
+        i, side = (int(one) for one in np.unravel_index(int(at.argmax()), at.shape))
+        reached = tuple(float(car) for car in cars[at.max(axis=1) >= distance])
+        found.append(Bracket(height, distance, float(at[i, side]), SIDES[side], float(cars[i]), reached))
+    return tuple(found)
 
 
 def _grid(model: RopeModel, options: SwayOptions) -> tuple[np.ndarray, np.ndarray]:

@@ -7,9 +7,8 @@ from typing import Annotated
 import typer
 
 import comprope_system
-from comprope.errors import InputError
 
-from .._parameters import EXECUTOR, JOBS
+from .._parameters import EXECUTOR, JOBS, numbers
 from .._terminal import OutputFile, finish, progress_display, require_files
 
 MODEL = Annotated[str, typer.Argument(metavar="MODEL.toml", help="Model file, or a preset: tower50, building200.")]
@@ -60,7 +59,7 @@ class Demands:
     @property
     def ropes(self) -> "comprope_system.RopeSet | None":
         """The ropes of the sheave, if they differ."""
-        lengths, stiffness = _numbers("rope-lengths", self.rope_lengths), _numbers("rope-stiffness", self.rope_stiffness)
+        lengths, stiffness = numbers("rope-lengths", self.rope_lengths), numbers("rope-stiffness", self.rope_stiffness)
         if not lengths and not stiffness:
             return None
         return comprope_system.RopeSet(tuple(1e-3 * one for one in lengths) or (0.0,) * len(stiffness), stiffness)
@@ -76,14 +75,6 @@ class Demands:
         return comprope_system.DesignOptions(
             1e-3 * self.limit, self.floors, sway, sway_limit, self.sensors, self.stops, wall, self.ropes
         )
-
-
-def _numbers(option: str, text: str | None) -> tuple[float, ...]:
-    """The numbers of an option; raises `InputError` for anything else."""
-    try:
-        return tuple(float(one) for one in text.split(",")) if text else ()
-    except ValueError:
-        raise InputError(f"{option} = {text}: numbers separated by commas are accepted") from None
 
 
 @dataclass(frozen=True)

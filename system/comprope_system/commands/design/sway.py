@@ -6,8 +6,9 @@ from typing import Annotated
 import typer
 
 import comprope_system
+from comprope.errors import InputError
 
-from .._parameters import MODEL, SET, ResultFiles
+from .._parameters import MODEL, SET, ResultFiles, numbers
 from .._terminal import progress_display
 
 AMPLITUDE = Annotated[float, typer.Option(metavar="MM", help="Amplitude of the building sway at the top landing.")]
@@ -17,6 +18,14 @@ FLOORS = Annotated[int, typer.Option(metavar="N", help="Number of equally spaced
 DURATION = Annotated[float, typer.Option(metavar="S", help="Duration of the sway.")]
 DAMPING = Annotated[float, typer.Option(metavar="X", help="Damping ratio of the rope's modes.")]
 VERIFY = Annotated[int, typer.Option(metavar="N", help="Cells of the map that the full model simulates as well.")]
+
+
+BRACKETS = Annotated[
+    str | None, typer.Option(metavar="M:MM,...", help="Brackets by height and outward distance: where the rope may catch.")
+]
+SPEEDS = Annotated[
+    str | None, typer.Option(metavar="M/S,...", help="Simulate trips through the shaft at these speeds, with --period.")
+]
 
 
 @dataclass(frozen=True)
@@ -30,13 +39,25 @@ class Building:
     duration: DURATION = 120.0
     damping: DAMPING = 0.005
     verify: VERIFY = 2
+    brackets: BRACKETS = None
+    speeds: SPEEDS = None
 
     @property
     def options(self) -> "comprope_system.SwayOptions":
         """The same in SI units."""
         return comprope_system.SwayOptions(
-            1e-3 * self.amplitude, self.period, 1e-3 * self.limit, self.floors, self.duration, self.damping, verify=self.verify
-        )
+            1e-3 * self.amplitude, self.period, 1e-3 * self.limit, self.floors, self.duration, self.damping, verify=self.verify,
+            brackets=_brackets(self.brackets), speeds=numbers("speeds", self.speeds),
+        )  # fmt: skip
+
+
+def _brackets(text: str | None) -> tuple[tuple[float, float], ...]:
+    """Heights and distances [m] of an option such as 60:400,80:350; raises `InputError` for anything else."""
+    pairs = [one.split(":") for one in text.split(",")] if text else []
+    try:
+        return tuple((float(height), 1e-3 * float(distance)) for height, distance in pairs)
+    except ValueError:
+        raise InputError(f"brackets = {text}: heights in m and distances in mm such as 60:400,80:350 are accepted") from None
 
 
 def sway(model: MODEL, building: Building, files: ResultFiles, changes: SET = None) -> None:
