@@ -72,9 +72,15 @@ def corners(path: str, count: int) -> None:
 
 
 def outcome(pair: Pair, values: dict[str, float]) -> str:
-    """The outcome of half a second with these values: "ran", or the refusal without its numbers."""
+    """The outcome of half a second with these values: "ran", or the refusal without its numbers.
+
+    A drive runs for two and a half seconds from the start of its trip, is tripped after one and a half by brake or safety gear.
+    """
     instance, places, height = pair.instance, pair.references, values.get("shaft.height", 50.0)
     ends = [] if isinstance(pair, DrivePair) else [places["car_position"], places["counterweight_position"]]
+    driven = isinstance(pair, DrivePair)
+    step, values = (0.05, {"trip.start_time": 0.0} | values) if driven else (0.01, values)
+    level = places[("brake", "safety_gear")[len(repr(values)) % 2]] if driven else 0
     try:
         instance.reset()
         instance.setupExperiment(startTime=0.0)
@@ -85,7 +91,9 @@ def outcome(pair: Pair, values: dict[str, float]) -> str:
         for count in range(50):
             car = 0.5 * (0.01 * count) ** 2
             instance.setReal(ends, [car, height - car][: len(ends)])
-            instance.doStep(0.01 * count, 0.01)
+            if driven and count == 30:
+                instance.setReal([level], [1.0])
+            instance.doStep(step * count, step)
     except FMICallException:
         sentence = pair.messages[-1].split(" s: ", 1)[-1]
         return "refused: " + sentence.split(" = ")[0].split(" with ")[0].split(" at t")[0]

@@ -1,18 +1,24 @@
 """Stops of car and counterweight: rise of the sheave, forces and slack, with and without a tie-down; and a picture of one.
 
-    python benchmarks/stops.py [--convergence] [--picture FILE.png]
+    python benchmarks/stops.py [--convergence] [--cost] [--picture FILE.png]
 
 The car moves down at the speed named and is stopped at half height: by its drive, at 1 g, or harder by its safety gear.
 """
 
 import argparse
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import process_time
 
+import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import comprope_system
-from comprope_system import CarMotion, Stop
+from comprope.rope.model_file import dump, load
+from comprope_system import CarMotion, Stop, simulate
+from comprope_system.presets import model_path
 from comprope_system.simulation.result import SimulationResult
 from comprope_system.simulation.rope_shapes import DEPTHS
 
@@ -64,6 +70,38 @@ def convergence() -> None:
         print(row("building200", 9.0, "safety gear", False, changes).replace("building200", text), flush=True)
 
 
+def cost() -> None:
+    """Processor time of a simulated second: a plain trip, walls beside it, a building that moves, stops with slack rope."""
+    walls = {"effects.shaft_walls.stiffness": 1e5, "effects.shaft_walls.damping": 100.0, "effects.shaft_walls.distance": 0.5}
+    times = np.arange(0.0, 40.0, 0.02)
+    sway = 0.02 * np.sin(2.0 * np.pi * times / 5.0) * np.minimum(times / 5.0, 1.0)
+    print("| run | tower50: s | ratio | building200: s | ratio |")
+    found: dict[str, list[float]] = {}
+    for preset, height in (("tower50", 50.0), ("building200", 200.0)):
+        with TemporaryDirectory() as folder:
+            moving = Path(folder) / "m.toml"
+            dump(load(model_path(preset)), moving)
+            with moving.open("a", encoding="utf-8") as file:
+                file.write('[building]\nrecord = "r.csv"\nunit = "m"\ncolumns = ["g", "t"]\n' f"heights = [-5.0, {height}]\n")
+            pd.DataFrame({"time": times, "g": 0.1 * sway, "t": sway}).to_csv(moving.with_name("r.csv"), index=False)
+            trip = CarMotion(0.5 * height, 0.5 * height + 10.0)
+            for name, model, changes in (
+                ("plain trip", preset, {}), ("plain trip", preset, {}), ("with walls beside the rope", preset, walls),
+                ("in a building that moves", moving, {}), ("both", moving, walls),
+            ):  # fmt: skip
+                begin = process_time()
+                simulate(model, trip, changes=changes, duration=10.0)
+                found.setdefault(name, []).append((process_time() - begin) / 10.0)
+        for name in ("1 g", "safety gear"):
+            begin = process_time()
+            table = stopped(preset, 6.0, STOPS[name], {}).table
+            found.setdefault(f"stop at 6 m/s, {name}", []).append((process_time() - begin) / table["time"].iloc[-1])
+    for name, values in found.items():
+        costs = values if len(values) == 2 else values[1::2]  # the first plain trip of each loads its kernels
+        cells = (f"{one:.3f} | {one / plain:.2f}" for one, plain in zip(costs, found["plain trip"][1::2], strict=True))
+        print(f"| {name} | {' | '.join(cells)} |", flush=True)
+
+
 def picture(path: Path) -> None:
     """Sheave rise, tensions and rope shapes in the hardest stop of the 200 m building."""
     result = stopped("building200", 9.0, STOPS["safety gear"], {})
@@ -85,7 +123,7 @@ def picture(path: Path) -> None:
     for axes in (top, low):
         axes.legend(frameon=False, fontsize=8)
     _draw_shapes(figure.add_subplot(grid[:, 1]), result, begin)
-    figure.suptitle("Car down at 9 m/s, stopped by its safety gear at 15 m/s2: 200 m building")
+    figure.suptitle("Car down at 9 m/s, stopped by its safety gear: 200 m building")
     figure.savefig(path, dpi=110)
 
 
@@ -106,13 +144,14 @@ def main() -> None:
     """Print the table, or what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--convergence", action="store_true", help="print what mesh and step change instead")
+    parser.add_argument("--cost", action="store_true", help="print what slack, walls and a moving building cost instead")
     parser.add_argument("--picture", type=Path, help="draw one stop instead")
     options = parser.parse_args()
     if options.picture:
         picture(options.picture)
         return
-    if options.convergence:
-        convergence()
+    if options.convergence or options.cost:
+        (convergence if options.convergence else cost)()
         return
     print(HEAD, "|---|---|---|---|---|---|---|---|---|---|---|", sep="\n")
     for preset in ("tower50", "building200"):
