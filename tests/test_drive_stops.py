@@ -124,7 +124,7 @@ def energy(drive: Drive, found: dict[str, NDArray[np.float64]]) -> NDArray[np.fl
 @pytest.mark.parametrize("torque", [0.0, 800.0, 2500.0, 1e5])
 @pytest.mark.parametrize("damping", [0.0, 6e4])
 def test_no_trip_puts_in_energy(torque: float, damping: float) -> None:
-    """Slack ropes, slip, brake and gear only take it out: 10 kJ, and at no time is there more by 3 J; also without any damping."""
+    """Slack ropes, slip, brake and gear only take it out: 10 kJ, and it never grows by 3 J; also without any damping."""
     plant = Plant(rope_mass_per_length=0.0, rope_damping=damping)
     drive = elevator(plant, brake=Brake(torque=torque))
     stored = energy(drive, run(drive, 9.5, 0.001, safety_gear=1.0))[8002:-1]
