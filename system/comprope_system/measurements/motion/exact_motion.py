@@ -35,7 +35,10 @@ def exact_motion(signal: Signal, span: tuple[float, float], remark: str) -> Trip
     fastest = float(np.abs(piece.derivative(signal.time, 2)).max())
     if fastest > FAST:
         unseen = f"samples {1e3 * signal.interval:.3g} ms apart do not show its course"
-        remarks.append(f"the motion reaches {fastest:.3g} m/s2: an impact, or a failure of the sensor; {unseen}")
+        remarks.append(
+            f"the motion reaches {fastest:.3g} m/s2: an impact, or a failure of the sensor; {unseen}, and `simulate` follows it "
+            "with --step 0.001"
+        )
     if not departs:
         remarks.append("the record begins under way")
     if not arrives:
