@@ -189,3 +189,13 @@ def test_the_state_after_a_trip_goes_on_bit_for_bit() -> None:
     for simulator in (one, two):
         simulator.step(TRIP + 0.3, 0.7, inputs | {"safety_gear": 1.0})
     assert one.outputs() == two.outputs()
+
+
+def test_a_step_of_no_length_trips_nothing() -> None:
+    drive = elevator(Plant())
+    inputs = {"destination": 0.0, "car_end_tension": 0.0, "counterweight_end_tension": 0.0, **LEVELS}
+    simulator = DriveSimulator(drive, inputs, 0.0)
+    simulator.step(0.0, 0.01, inputs)
+    before = simulator.outputs()
+    simulator.step(0.01, 0.0, inputs | {"brake": 1.0})
+    assert simulator.outputs() == before

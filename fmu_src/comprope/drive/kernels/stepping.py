@@ -132,12 +132,9 @@ def advance_drive(
     status = _set_pulls(p, u, state, work.message)
     if status != SUCCESS:
         return status
-    if u[SAFETY_GEAR] > 0.0:
-        state.emergency[TRIPPED] = CHAIN_OPEN
-    elif u[BRAKE] > 0.0:
-        state.emergency[TRIPPED] = max(state.emergency[TRIPPED], MOTOR_OFF)
     end, same = t + dt - clock[START_TIME], SAME_TIME * period
     while end - (clock[PERIODS] * period + clock[ELAPSED]) > same:
+        _trip(u, state.emergency)
         if clock[ELAPSED] == 0.0:
             status = _check_place(p, state, work.message)
             if status == SUCCESS and state.emergency[TRIPPED] == 0.0:
@@ -164,6 +161,15 @@ def _set_pulls(p, u, state, message):
         servo[REST_CAR], servo[REST_COUNTERWEIGHT] = car, counterweight
     vector[F_C], vector[F_W] = car - servo[REST_CAR], counterweight - servo[REST_COUNTERWEIGHT]
     return SUCCESS
+
+
+@kernel
+def _trip(u, emergency):
+    """Switch the motor off for good when brake or safety gear are applied; the gear opens the safety chain as well."""
+    if u[SAFETY_GEAR] > 0.0:
+        emergency[TRIPPED] = CHAIN_OPEN
+    elif u[BRAKE] > 0.0:
+        emergency[TRIPPED] = max(emergency[TRIPPED], MOTOR_OFF)
 
 
 @kernel
