@@ -79,7 +79,7 @@ def looks(page: Path, file: Path) -> None:
     whole = Image.new("RGB", (sum(one.width for one in shots), LOOKS_HEIGHT // 2))
     for k, one in enumerate(shots):
         whole.paste(one, (sum(other.width for other in shots[:k]), 0))
-    whole.quantize(2 * COLOURS).save(file, optimize=True)
+    whole.save(file, optimize=True)
 
 
 def frame_times(frame: Any) -> str:
