@@ -159,7 +159,7 @@ class Score:
     run_phase_penalty: float = setting(1.0, "1", "penalty for the phase of each run", JUDGEMENT)
     model_error: float = setting(
         0.005, "1", "share of the noise's chi-square that errors of mesh, time step, recovered trip and noise model leave",
-        "twice what absent effects explained at most in eight campaigns with nothing hidden (benchmarks/RESULTS.md)",
+        "nearly twice what absent effects explained at most in eight campaigns with nothing hidden (benchmarks/RESULTS.md)",
     )  # fmt: skip
     noise_limit: float = setting(
         1.1, "1", "largest reduced chi-square that may be noise alone", f"{DERIVED}: stated noise is right to 5 %"
