@@ -1,12 +1,13 @@
 """Faults of instruments and of the files are named as such, not fitted away by the rope."""
 
+from types import SimpleNamespace
 
 import pytest
 
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.data.runs import Channel
 from comprope_system.identification.diagnosis.diagnose import diagnose
-from comprope_system.identification.diagnosis.held_out_validation import implausible_parameters, validate
+from comprope_system.identification.diagnosis.held_out_validation import implausible_parameters, units_by_fitted_gains, validate
 from comprope_system.identification.estimation.model_score import prior_cost
 from comprope_system.parallel.executors import threads
 
@@ -37,6 +38,27 @@ def test_a_fault_of_one_channel_is_the_instruments(tmp_path, executor, effect, v
     # Noise of 0.3 mm leaves a gain uncertain by a per cent or two, a drift by less.
     assert best.hypothesis.parameters(best.fitted.effect_coefficients)[key] == pytest.approx(value, rel=0.05)
     assert told is None or any(told in one for one in validate(found, executor).remarks)
+
+
+@pytest.mark.parametrize(
+    ("gain", "told"),
+    [
+        (0.101, 'axle: 0.101 times the amplitude of the model; its unit is probably "cm", not "mm"'),
+        (980.0, 'axle: 980 times the amplitude of the model; its unit is probably "um", not "mm"'),
+        (1e-5, "axle: 1e-05 times the amplitude of the model, near a power of ten: check its unit"),
+        (0.9, None),
+        (2.3, None),
+    ],
+)
+def test_a_gain_that_a_verdict_has_fitted_tells_the_unit(gain, told):
+    """Also of a channel with so much noise that the runs alone would not agree on its gain."""
+    channels = {"axle": Channel(column="axle", quantity="sheave_displacement", unit="mm")}
+    fitted = SimpleNamespace(effect_coefficients=[0.5])
+    best = SimpleNamespace(hypothesis=SimpleNamespace(parameters=lambda x: {"effects.sensor_gain.axle": gain}), fitted=fitted)
+    campaign = SimpleNamespace(channels=channels)
+    found = SimpleNamespace(verdict="sensor_gain", ranking=[best], campaign=campaign)
+    assert list(units_by_fitted_gains(found)) == ([told] if told else [])
+    assert not list(units_by_fitted_gains(SimpleNamespace(verdict="air_drag", ranking=[best], campaign=campaign)))
 
 
 def test_a_load_cell_that_shows_too_little_is_no_lighter_sheave(tmp_path, executor, monkeypatch):

@@ -11,6 +11,7 @@ from ...measurements.units import UNITS
 from ..data.campaign import Campaign
 from ..data.outliers import outliers
 from ..data.plausibility import remarks_on_record
+from ..data.runs import Channel
 from ..data.trip_phases import phases
 from ..prediction.parameter_point import Predictions
 from ..settings import DATA_QUALITY, PAIRED_RECORDS
@@ -48,14 +49,20 @@ def unit(group: Sequence[Record]) -> Iterator[str]:
     seen = [abs(one.gain()[0]) for one in group if abs(one.gain()[1]) > DATA_QUALITY.min_correlation]
     if not seen or max(seen) > 1.5 * min(seen):
         return
-    gain, channel = float(np.median(seen)), group[0].channel
-    scales = UNITS[channel.quantity]
-    fitting = [name for name, scale in scales.items() if scale != channel.scale and _near(gain * scale / channel.scale)]
-    if fitting and not _near(gain):
-        size = f"{channel.column}: {gain:.3g} times the amplitude of the model"
-        yield f'{size}; its unit is probably "{fitting[0]}", not "{channel.unit}"'
-    elif abs(np.log10(gain)) > 0.8 and abs(np.log10(gain) - round(float(np.log10(gain)))) < 0.15:
-        yield f"{channel.column}: {gain:.3g} times the amplitude of the model, near a power of ten: check its unit"
+    if sentence := unit_by_gain(group[0].channel, float(np.median(seen))):
+        yield sentence
+
+
+def unit_by_gain(channel: Channel, gain: float) -> str | None:
+    """What a channel's gain against the model tells of its unit, if anything."""
+    scales, size = UNITS[channel.quantity], f"{channel.column}: {abs(gain):.3g} times the amplitude of the model"
+    fitting = [name for name, scale in scales.items() if scale != channel.scale and _near(abs(gain) * scale / channel.scale)]
+    if fitting and not _near(abs(gain)):
+        return f'{size}; its unit is probably "{fitting[0]}", not "{channel.unit}"'
+    power = float(np.log10(abs(gain))) if gain else 0.0
+    if abs(power) > 0.8 and abs(power - round(power)) < 0.15:
+        return f"{size}, near a power of ten: check its unit"
+    return None
 
 
 def _near(gain: float) -> bool:
