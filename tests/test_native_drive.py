@@ -154,6 +154,23 @@ def test_the_same_trips_as_in_python(pair: DrivePair, name: str) -> None:
     assert pair.oracle.instance.simulator.outputs()["tripped"]
 
 
+def test_a_state_from_before_a_trip_has_not_tripped(pair: DrivePair) -> None:
+    """And one from after it has: restored either way, the run goes on as in Python."""
+    pair.start({"trip.destination": 0.0, "trip.start_position": 10.0, "destination": 0.0} | ROPES)
+    pair.do_step(3.0)
+    pair.save_state()
+    pair.set_reals(["safety_gear"], [1.0])
+    pair.do_step(0.3)
+    pair.save_state()
+    for serialized in (False, True):
+        for place, tripped in ((0, False), (1, True)):
+            pair.restore_state(place, serialized)
+            pair.do_step(0.2)
+            pair.get_all()
+            assert pair.oracle.instance.simulator.outputs()["tripped"] == tripped
+    assert pair.refusals == 0
+
+
 def test_tensions_that_come_with_the_first_step_belong_to_the_equilibrium(pair: DrivePair) -> None:
     pair.start({})
     pair.set_reals(list(ROPES), list(ROPES.values()))

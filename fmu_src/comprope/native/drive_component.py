@@ -24,7 +24,7 @@ def drive_component(interface: ModelInterface) -> Component:
         SOURCES,
         TABLES,
         {points: _sizes(points, len(outputs)) for points in _POINTS},
-        "State.vector",
+        "State.emergency",
         {"Parameters.p": NAMES, "Inputs.u": INPUTS},
         outputs,
         MESSAGES,
