@@ -89,7 +89,7 @@ MUTANTS = [
     *mutants(
         "contact", MECHANICS,
         ("radius_of_pitch", "(12.0 * p[R])", "(24.0 * p[R])", FORCES),
-        ("damping_at_first_touch", "p[C] * depth / (depth + FADE)", "p[C]",
+        ("damping_at_first_touch", "c * depth / (depth + fade)", "c",
          "test_rope_kernels.py::test_contact_pushes_but_never_pulls"),
         ("suction", "if force <= 0.0:", "if force <= -1e300:", "test_rope_kernels.py::test_contact_pushes_but_never_pulls"),
         ("regularisation", "return p[MU] * slip * root,", "return p[MU] * slip / abs(slip + 1e-300),",
@@ -263,7 +263,7 @@ MUTANTS = [
         ("deg_per_s", '"deg/s": np.pi / 180.0', '"deg/s": np.pi / 360.0', UNITS),
     ),
     *mutants(
-        "units", f"{MEASUREMENTS}/end_motions.py",
+        "units", f"{MEASUREMENTS}/runs/end_motions.py",
         ("counterweight_unmirrored", "replace(car.mirrored(height), remarks=())", "replace(car, remarks=())", UNITS),
         ("counterweight_s_column_ignored", "car.mirrored(level)", "car.mirrored(height)", UNITS),
     ),
