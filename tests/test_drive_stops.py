@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from comprope.drive.kernels import tripped_hoist
+from comprope.drive.kernels import velocity_balance
 from comprope.drive.parameters import Brake, Buffer, Drive, FirstTrip, Plant, Profile, SafetyGear, Shaft
 from comprope.drive.simulator import DriveSimulator
 from comprope.errors import InputError, SimulationError
@@ -134,7 +134,7 @@ def test_no_trip_puts_in_energy(torque: float, damping: float) -> None:
 
 def test_a_step_s_velocities_balance_all_forces() -> None:
     """Whatever slides, is slack or held: of rope, rim, car and counterweight the momentum is that of the forces."""
-    kernels, generator = uncompiled(tripped_hoist), np.random.default_rng(5)
+    kernels, generator = uncompiled(velocity_balance), np.random.default_rng(5)
     for _ in range(300):
         h, ratio = 1e-4, 1.0 + generator.uniform(0.0, 2.0)
         car, counterweight = (

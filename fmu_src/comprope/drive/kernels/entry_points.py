@@ -13,12 +13,24 @@ from ...kernels.joined import entries_of, entries_text, joined_module
 from ...kernels.kernel_linking import linked, merged
 from .. import status
 from ..parameters import parameter_checks
-from . import arguments, checks, clock, design, hoist, matrices, outputs, parameter_vector, stepping, tripped_hoist
+from . import (
+    arguments,
+    checks,
+    clock,
+    design,
+    hoist,
+    matrices,
+    outputs,
+    parameter_vector,
+    stepping,
+    tripped_hoist,
+    velocity_balance,
+)
 from .reference import free_curve, s_curve, shaped_trip
 
 MODULES = (
     arguments, parameter_checks, s_curve, free_curve, shaped_trip, matrices, hoist, design, checks, clock,
-    tripped_hoist, stepping, outputs,
+    velocity_balance, tripped_hoist, stepping, outputs,
 )  # fmt: skip
 _CONSTANTS = (parameter_vector, status, kernel_status, jit)  # what kernels take from them stands in their own modules
 ENTRIES = {
