@@ -4,10 +4,11 @@ from types import SimpleNamespace
 
 import pytest
 
+from comprope_system.identification.comparison.data_quality import unit
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.data.runs import Channel
 from comprope_system.identification.diagnosis.diagnose import diagnose
-from comprope_system.identification.diagnosis.held_out_validation import implausible_parameters, units_by_fitted_gains, validate
+from comprope_system.identification.diagnosis.held_out_validation import fitted_gains, implausible_parameters, validate
 from comprope_system.identification.estimation.model_score import prior_cost
 from comprope_system.parallel.executors import threads
 
@@ -55,10 +56,10 @@ def test_a_gain_that_a_verdict_has_fitted_tells_the_unit(gain, told):
     channels = {"axle": Channel(column="axle", quantity="sheave_displacement", unit="mm")}
     fitted = SimpleNamespace(effect_coefficients=[0.5])
     best = SimpleNamespace(hypothesis=SimpleNamespace(parameters=lambda x: {"effects.sensor_gain.axle": gain}), fitted=fitted)
-    campaign = SimpleNamespace(channels=channels)
-    found = SimpleNamespace(verdict="sensor_gain", ranking=[best], campaign=campaign)
-    assert list(units_by_fitted_gains(found)) == ([told] if told else [])
-    assert not list(units_by_fitted_gains(SimpleNamespace(verdict="air_drag", ranking=[best], campaign=campaign)))
+    found = fitted_gains(SimpleNamespace(verdict="sensor_gain", ranking=[best]))
+    record = SimpleNamespace(channel=channels["axle"], gain=lambda: (3e4, 1.0))  # what the runs agree on does not count
+    assert list(unit([record], found)) == ([told] if told else [])
+    assert fitted_gains(SimpleNamespace(verdict="air_drag", ranking=[best])) == {}
 
 
 def test_a_load_cell_that_shows_too_little_is_no_lighter_sheave(tmp_path, executor, monkeypatch):

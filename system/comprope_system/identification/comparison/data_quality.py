@@ -3,7 +3,8 @@
 Gross errors of instruments (sign, unit, clock) are apparent in a comparison even with a poor model.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -19,14 +20,21 @@ from .clock_offset import clock
 from .paired_records import Record, by_column, records_of
 
 
-def remarks(campaign: Campaign, predictions: Predictions, plain: Predictions | None = None) -> list[str]:
+def remarks(
+    campaign: Campaign,
+    predictions: Predictions,
+    plain: Predictions | None = None,
+    gains: Mapping[str, float] | None = None,
+) -> list[str]:
     """Messages about the data, the most serious first; empty if there are none.
 
-    `plain` are predictions without fitted instrument effects; by default `predictions`.
+    `plain` are predictions without fitted instrument effects; by default `predictions`. `gains` are those of channels, by
+    column, that a fit has found; the gains of others are those of the records.
     """
+    plain_rules: tuple[Rule, ...] = (sign, partial(unit, fitted=gains or {}), drift)
     records = list(records_of(campaign, predictions))
     untouched = list(records_of(campaign, plain or predictions))
-    of_channels = [sentence for rule in PLAIN_RULES for group in by_column(untouched) for sentence in rule(group)]
+    of_channels = [sentence for rule in plain_rules for group in by_column(untouched) for sentence in rule(group)]
     of_channels += [sentence for rule in CHANNEL_RULES for group in by_column(records) for sentence in rule(group)]
     of_runs = [sentence for run in campaign.runs for sentence in remarks_on_record(run)]
     return [*campaign.notes, *of_channels, *clock(records), *of_runs, *(note for run in campaign.runs for note in run.notes)]
@@ -44,13 +52,18 @@ def sign(group: Sequence[Record]) -> Iterator[str]:
         yield f"{name}: anticorrelated with the model in every run (gain {gain:.2f}): its sign is probably wrong"
 
 
-def unit(group: Sequence[Record]) -> Iterator[str]:
+def unit(group: Sequence[Record], fitted: Mapping[str, float]) -> Iterator[str]:
     """A channel whose amplitude indicates another unit or another power of ten."""
-    seen = [abs(one.gain()[0]) for one in group if abs(one.gain()[1]) > DATA_QUALITY.min_correlation]
-    if not seen or max(seen) > 1.5 * min(seen):
-        return
-    if sentence := unit_by_gain(group[0].channel, float(np.median(seen))):
+    channel = group[0].channel
+    gain = fitted.get(channel.column, _common_gain(group))
+    if gain is not None and (sentence := unit_by_gain(channel, gain)):
         yield sentence
+
+
+def _common_gain(group: Sequence[Record]) -> float | None:
+    """Size of the gain in which the runs agree, if they do."""
+    seen = [abs(one.gain()[0]) for one in group if abs(one.gain()[1]) > DATA_QUALITY.min_correlation]
+    return float(np.median(seen)) if seen and max(seen) <= 1.5 * min(seen) else None
 
 
 def unit_by_gain(channel: Channel, gain: float) -> str | None:
@@ -150,5 +163,4 @@ def unseen_rest(group: Sequence[Record]) -> Iterator[str]:
 
 
 Rule = Callable[[Sequence[Record]], Iterator[str]]
-PLAIN_RULES: tuple[Rule, ...] = (sign, unit, drift)
 CHANNEL_RULES: tuple[Rule, ...] = (noise, far_out, gaps, unseen_rest)

@@ -18,7 +18,7 @@ from ..hypotheses.model_effects import shape_hypotheses
 from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint
 from ..progress import ProgressCallback
-from ..settings import CANDIDATES, MASS_SEARCH
+from ..settings import CANDIDATES
 from .linear_screening import ScreenedHypothesis
 
 
@@ -85,7 +85,7 @@ def free_shape_parameters(
     """
     assert fitted.hypothesis is not None
     shapes = shape_hypotheses(fitted.hypothesis.parts or (fitted.hypothesis,), problem.longest)
-    if not shapes or not MASS_SEARCH.adequate * len(problem.data) < fitted.chi_square < abandon_above:
+    if not shapes or not CANDIDATES.shape_threshold * len(problem.data) < fitted.chi_square < abandon_above:
         return fitted
     hypothesis = replace(combine(fitted.hypothesis, *shapes), effect=fitted.hypothesis.effect)
     start = np.concatenate([fitted.coefficients, np.zeros(len(shapes))])

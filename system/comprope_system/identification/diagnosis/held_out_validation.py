@@ -1,6 +1,5 @@
 """Validation of a diagnosis on the runs held out, and its result as JSON."""
 
-from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from math import expm1
@@ -8,7 +7,7 @@ from typing import Any
 
 from ...report.json_output import plain
 from ..comparison.compare import Comparison, compare
-from ..comparison.data_quality import remarks, unit_by_gain
+from ..comparison.data_quality import remarks
 from ..comparison.nrmse import nrmse
 from ..estimation.gauss_newton import FitResult
 from ..estimation.parameter_estimates import Estimate, keys_set_by_runs, plant_estimates, standard_error_scale
@@ -45,20 +44,17 @@ def validate(diagnosis: Diagnosis, executor: Executor, base: ParameterPoint | No
     refitted = compare(campaign, executor, diagnosis.baseline.point, diagnosis.baseline.predictions)
     candidates = {k: compare(campaign, executor, one.point, one.predictions) for k, one in fits.items()}
     found = ValidatedDiagnosis(diagnosis, before, refitted, candidates, ())
-    told = remarks(campaign, found.best.predictions, before.predictions)
-    new = [one for one in units_by_fitted_gains(diagnosis) if one.split(",")[0].split(";")[0] not in "\n".join(told)]
-    return ValidatedDiagnosis(diagnosis, before, refitted, candidates, (*new, *told))
+    told = remarks(campaign, found.best.predictions, before.predictions, fitted_gains(diagnosis))
+    return ValidatedDiagnosis(diagnosis, before, refitted, candidates, tuple(told))
 
 
-def units_by_fitted_gains(diagnosis: Diagnosis) -> Iterator[str]:
-    """What the gains that a verdict has fitted tell of the units of their channels."""
+def fitted_gains(diagnosis: Diagnosis) -> dict[str, float]:
+    """Gains of channels, by column, that the verdict has fitted."""
     if diagnosis.verdict != SENSOR_GAIN:
-        return
-    best, channels = diagnosis.ranking[0], diagnosis.campaign.channels
-    for key, gain in best.hypothesis.parameters(best.fitted.effect_coefficients).items():
-        _, effect, column = key.split(".", 2)
-        if effect == SENSOR_GAIN and (sentence := unit_by_gain(channels[column], gain)):
-            yield sentence
+        return {}
+    best = diagnosis.ranking[0]
+    parts = ((key.split(".", 2), gain) for key, gain in best.hypothesis.parameters(best.fitted.effect_coefficients).items())
+    return {column: gain for (_, effect, column), gain in parts if effect == SENSOR_GAIN}
 
 
 def to_json(validated: ValidatedDiagnosis) -> dict[str, Any]:

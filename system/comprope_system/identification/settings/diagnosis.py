@@ -76,6 +76,9 @@ class Candidates:
     mass_threshold: float = setting(
         2.0, "1", "reduced chi-square of the best fit above which effects are screened at other masses", f"{CAMPAIGNS}, office28"
     )
+    shape_threshold: float = setting(
+        1.05, "1", "reduced chi-square of a fit below which its shape parameters are not fitted", JUDGEMENT
+    )
     shape_improvement: float = setting(
         0.97, "1", "share of its chi-square that a fit must reach for its shape parameters to be kept", JUDGEMENT
     )

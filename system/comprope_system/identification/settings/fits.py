@@ -142,7 +142,6 @@ class MassSearch:
         10.0, "1", "log score that another mass must gain by linear prediction: a tenth of a large chi-square, 20 near the noise",
         f"{JUDGEMENT}: half of it would decide a verdict",
     )  # fmt: skip
-    adequate: float = setting(1.05, "1", "reduced chi-square below which no other shape is tried", JUDGEMENT)
 
 
 @dataclass(frozen=True)
