@@ -68,6 +68,11 @@ def automation(table: pd.DataFrame) -> Iterator[Variant]:
         "times in ticks of 0.1 ms, without the sheave",
         csv(table.assign(time=(1e4 * table["time"]).round().astype(int)).drop(columns="sheave_w")),
     )
+
+
+def campbell(table: pd.DataFrame) -> Iterator[Variant]:
+    """Table-oriented ASCII with quoted headers and stamps."""
+    names, cells, stamps = [*table.columns], cells_of(table), stamps_of(table)
     toa5 = [
         '"TOA5","CR1000X","CR1000X","1234","CR1000X.Std.05","CPU:run.CR1X","55555","Fast"',
         ",".join(f'"{one}"' for one in ["TIMESTAMP", "RECORD", *names[1:]]),

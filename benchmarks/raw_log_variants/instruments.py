@@ -19,8 +19,8 @@ LABVIEW = (
 )
 
 
-def instruments(table: pd.DataFrame) -> Iterator[Variant]:
-    """Text files of instruments."""
+def scopes(table: pd.DataFrame) -> Iterator[Variant]:
+    """Oscilloscopes and scanners."""
     names, cells, stamps = [*table.columns], cells_of(table), stamps_of(table)
     pico = [",".join([f"{1e3 * float(row[0]):.8f}", *[one or "∞" for one in row[1:]]]) for row in cells]
     yield text(
@@ -41,6 +41,11 @@ def instruments(table: pd.DataFrame) -> Iterator[Variant]:
     yield text(
         "InfiniiVision", "\n".join([*scope, *(",".join(f"{float(one):+.8E}" if one else "" for one in row) for row in cells)])
     )
+
+
+def recorders(table: pd.DataFrame) -> Iterator[Variant]:
+    """Transient recorders."""
+    names, cells = [*table.columns], cells_of(table)
     yoko = [
         '"Header Size",12',
         '"Model Name","DL850E"',
@@ -65,6 +70,11 @@ def instruments(table: pd.DataFrame) -> Iterator[Variant]:
     yield text(
         "Hioki", "\n".join([*hioki, *(",".join(f"{float(one):+.5E}" if one else '"-----"' for one in row) for row in cells)])
     )
+
+
+def programs_of_instruments(table: pd.DataFrame) -> Iterator[Variant]:
+    """LabVIEW and its relatives, with times once or beside each channel."""
+    names, cells, comma = [*table.columns], cells_of(table), cells_of(table, ",")
     pairs = ",".join(f"Time - {one} (Filtered),Amplitude - {one} (Filtered)" for one in names[1:])
     yield text(
         "SignalExpress, times beside each channel",
@@ -74,7 +84,6 @@ def instruments(table: pd.DataFrame) -> Iterator[Variant]:
     yield text(
         "times named by their channels", "\n".join([pairs, *(",".join(f"{row[0]},{one}" for one in row[1:]) for row in cells)])
     )
-    comma = cells_of(table, ",")
     yield text(
         "LabVIEW, decimal commas, units in the header",
         LABVIEW + "\n".join(["\t".join(["X_Value", *names[1:], "Comment"]), *("\t".join(row) for row in comma)]),
@@ -86,6 +95,11 @@ def instruments(table: pd.DataFrame) -> Iterator[Variant]:
         + "\n".join(["\t".join(["X_Value", *names[1:], "Comment"]), *("\t".join(["", *row[1:]]) for row in comma)]),
         file="run.lvm",
     )
+
+
+def unusual_rows(table: pd.DataFrame) -> Iterator[Variant]:
+    """Rows that are no list of cells, or have others amid."""
+    names, cells = [*table.columns], cells_of(table)
     yield text("no separator but colons", "\n".join(f"t:{row[0]} car:{row[1]} cw_low:{row[2]}" for row in cells))
     yield text(
         "keys and values in each row", "\n".join(", ".join(f"{n}={c}" for n, c in zip(names, row, strict=True)) for row in cells)
@@ -101,6 +115,11 @@ def instruments(table: pd.DataFrame) -> Iterator[Variant]:
         "date Mon Nov 2 09:12:01.123 am 2026\nbase hex  timestamps absolute\n"
         + "\n".join(f"   {row[0]} 1  1A0             Rx   d 8 00 11 22 33 44 55 66 77" for row in cells),
     )
+
+
+def unusual_headers(table: pd.DataFrame) -> Iterator[Variant]:
+    """More columns, units and lines than those of the plain file."""
+    names, cells = [*table.columns], cells_of(table)
     yield text("statistics below each column", csv(table) + "\nMin,0,-0.3\nMax,45,12.1\nMean,20.1,0.2\n")
     yield text("statistics above the header", "Min;0;-0.3;0;0;0;0\nMax;33;45;1;2;3;4\n" + csv(table, sep=";"))
     yield text(
@@ -122,6 +141,11 @@ def instruments(table: pd.DataFrame) -> Iterator[Variant]:
         "% run\n% time car_position cw_low cw_mid car_low sheave_dx sheave_w\n"
         + "\n".join(" ".join(one or "NaN" for one in row) for row in cells),
     )
+
+
+def grouped_digits(table: pd.DataFrame) -> Iterator[Variant]:
+    """Points between thousands."""
+    cells = cells_of(table)
     yield text(
         "semicolons and decimal commas, thousands in time",
         csv(
