@@ -22,9 +22,9 @@ import fmpy
 
 from comprope.errors import CompropeError
 from comprope.rope.model_file import load
-from comprope_system.cosim.fmu_cache import rope_fmu
-from comprope_system.cosim.fmu_participant import FmuParticipant
 from comprope_system.presets import model_path
+from comprope_system.simulation.cosim.fmu_cache import rope_fmu
+from comprope_system.simulation.cosim.fmu_participant import FmuParticipant
 
 ODD = (math.nan, math.inf, -math.inf, -1.0, 0.0, 1e300, -1e300, 1e-300)
 Outcome = str

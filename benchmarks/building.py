@@ -11,10 +11,10 @@ import pandas as pd
 import comprope_system
 from comprope.rope.model_file import dump, load
 from comprope.rope.simulator.rope import CompensationRope
-from comprope_system.modal.hanging_string import side_string
 from comprope_system.presets import model_path
-from comprope_system.sway_operation.full_simulation import simulated_amplitudes
-from comprope_system.sway_operation.parked_response import Sway, parked_rope
+from comprope_system.vibration.modal.hanging_string import side_string
+from comprope_system.vibration.sway_operation.full_simulation import simulated_amplitudes
+from comprope_system.vibration.sway_operation.parked_response import Sway, parked_rope
 
 LAST, STEP = 8.0, 0.02
 TIMES = np.arange(0.0, LAST + 1.0, STEP)

@@ -19,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 
-from comprope_system.verification.free_rope import FreeRope, Hanging, lead_sine, swing_sideways
-from comprope_system.verification.reference import reference, rms
+from comprope_system.studies.verification.free_rope import FreeRope, Hanging, lead_sine, swing_sideways
+from comprope_system.studies.verification.reference import reference, rms
 
 EVERY = 0.05  # s
 FINE = 2e-4  # s, a step that resolves waves along the rope

@@ -16,10 +16,10 @@ from comprope.drive.cosimulation import interface as drive_interface
 from comprope.errors import CompropeError
 from comprope.rope.model_file import load
 from comprope.rope.simulator.cosimulation import interface as rope_interface
-from comprope_system.cosim.fmu_participant import FmuParticipant
-from comprope_system.cosim.in_process_participant import InProcessParticipant
 from comprope_system.presets import model_path
-from comprope_system.simulation.elevator import BACKWARD, FORWARD
+from comprope_system.simulation.cosim.fmu_participant import FmuParticipant
+from comprope_system.simulation.cosim.in_process_participant import InProcessParticipant
+from comprope_system.simulation.trips.elevator import BACKWARD, FORWARD
 
 SENSOR = "lateral_displacement[1]"
 ORDERS = ("drive first", "rope first", "both at once")

@@ -21,7 +21,7 @@ from comprope.errors import SimulationError
 from comprope.rope.effects import INSTRUMENT, REGISTRY, names_of
 from comprope_system.identification.comparison.nrmse import nrmse
 from comprope_system.identification.data.campaign import Campaign, load_campaign
-from comprope_system.identification.hypotheses.effect_hypotheses import (
+from comprope_system.identification.prediction.effect_hypotheses import (
     Hypothesis,
     combine,
     heights_tried,

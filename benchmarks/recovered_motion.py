@@ -21,7 +21,7 @@ import comprope_system
 from comprope.errors import InputError
 from comprope_system.measurements import Trip, recover_trip
 from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
-from comprope_system.simulation.measured_run import read_run
+from comprope_system.simulation.trips.measured_run import read_run
 
 Floats = NDArray[np.float64]
 

@@ -19,8 +19,8 @@ import comprope_system
 from comprope.rope.model_file import dump, load
 from comprope_system import CarMotion, Stop, simulate
 from comprope_system.presets import model_path
-from comprope_system.simulation.result import SimulationResult
-from comprope_system.simulation.rope_shapes import DEPTHS
+from comprope_system.simulation.trips.result import SimulationResult
+from comprope_system.simulation.trips.rope_shapes import DEPTHS
 
 SPEEDS = (2.5, 6.0, 9.0)
 STOPS = {

@@ -15,7 +15,7 @@ from pathlib import Path
 from comprope_system.parallel.executors import workers
 from comprope_system.parallel.sweep import Case, sweep, values
 from comprope_system.presets.paper_installations import TOWER, sheave_changes
-from comprope_system.studies.swing import swing, swing_case
+from comprope_system.studies.paper.swing import swing, swing_case
 
 
 def cases(runs: int, distance: float) -> list[Case]:

@@ -17,11 +17,11 @@ from comprope.rope.parameters import Building, Sensor
 from comprope.rope.parameters.parameter_vector import COMPONENTS, DECLARED
 from comprope.rope.simulator.cosimulation import interface as rope_interface
 from comprope_system.identification.data.campaign import CampaignFile, Channel, RunSpec
-from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
+from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.settings import GROUPS, settings_of
 from comprope_system.measurements.units import UNITS
 from comprope_system.presets import model_path
-from comprope_system.simulation.result_columns import columns
+from comprope_system.simulation.trips.result_columns import columns
 
 PATH = Path(__file__).with_name("reference.md")
 TITLE = """# Reference

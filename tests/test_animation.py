@@ -10,12 +10,13 @@ import pytest
 import comprope_system
 from comprope.rope.model_file import load
 from comprope.rope.simulator.rope import CompensationRope
+from comprope.rope.simulator.side_shape import side_shape
 from comprope_system import cli
-from comprope_system.prescribed_trip import jerk_limited_trip, record_trip, side_shape
 from comprope_system.presets import model_path
+from comprope_system.presets.paper_installations import jerk_limited_trip
 from comprope_system.report.page import Animation, Section, save_page
-from comprope_system.simulation.animation.encoding import Trace, animation_data, decode_array, encode_array
-from comprope_system.simulation.rope_shapes import (
+from comprope_system.simulation.trips.animation.encoding import Trace, animation_data, decode_array, encode_array
+from comprope_system.simulation.trips.rope_shapes import (
     ARC,
     DEPTHS,
     MAX_FRAMES,
@@ -25,6 +26,7 @@ from comprope_system.simulation.rope_shapes import (
     frame_of,
     rest_displacements,
 )  # fmt: skip
+from comprope_system.vibration.prescribed_trip import record_trip
 
 from .browser import needs_browser, played
 from .virtual_elevator import MODEL, campaign
@@ -144,7 +146,7 @@ def test_packing_loses_less_than_a_line_is_wide():
     ("step", "total", "interval"), [(0.01, 500, 0.05), (0.05, 100, 0.05), (0.1, 50, 0.1), (0.001, 600_000, 0.5)]
 )
 def test_a_camera_takes_20_frames_a_second_and_never_too_many(monkeypatch, step, total, interval):
-    monkeypatch.setattr("comprope_system.simulation.rope_shapes.frame_of", lambda rope: rope)
+    monkeypatch.setattr("comprope_system.simulation.trips.rope_shapes.frame_of", lambda rope: rope)
     recorder = FrameRecorder(lambda: "frame", step)
     for count in range(total + 1):
         recorder(count, total)
@@ -159,7 +161,7 @@ def test_the_longest_page_stays_below_2_mb(tmp_path, monkeypatch):
         Frame(random.random(2), random.random((2, POINTS)), random.random((2, ARC)), 0.0, 0.0) for _ in range(MAX_FRAMES + 1)
     ]
     monkeypatch.setattr(
-        "comprope_system.simulation.animation.encoding.rest_shapes", lambda model, frames: [one.sides for one in frames]
+        "comprope_system.simulation.trips.animation.encoding.rest_shapes", lambda model, frames: [one.sides for one in frames]
     )
     traces = [Trace(str(k), "mm", random.random(2400), random.random(2400)) for k in range(12)]
     moving = Animation("trip", animation_data(MODEL, frames, 0.05, traces))

@@ -14,9 +14,9 @@ import comprope_system
 from comprope.errors import InputError
 from comprope.rope.model_file import dump, load, with_changes
 from comprope_system import cli
-from comprope_system.building_motion.record import building_record
 from comprope_system.presets import model_path
-from comprope_system.simulation.result import SimulationResult
+from comprope_system.simulation.building_motion.record import building_record
+from comprope_system.simulation.trips.result import SimulationResult
 
 LAST = 4.0  # s
 TIMES = np.arange(0.0, LAST + 1.0, 0.02)

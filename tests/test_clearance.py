@@ -12,10 +12,10 @@ import comprope_system
 from comprope.errors import InputError
 from comprope.rope.model_file import load, with_changes
 from comprope_system import cli
-from comprope_system.building_motion.motion import BuildingMotion
 from comprope_system.presets import model_path
-from comprope_system.simulation.clearance import Wall, clearance_of
-from comprope_system.simulation.rope_shapes import DEPTHS, Frame, Recording
+from comprope_system.simulation.building_motion.motion import BuildingMotion
+from comprope_system.simulation.trips.clearance import Wall, clearance_of
+from comprope_system.simulation.trips.rope_shapes import DEPTHS, Frame, Recording
 
 TOWER = with_changes(load(model_path("tower50")), {"rope.element_length": 0.1})
 PIT = TOWER.shaft.pit

@@ -11,7 +11,7 @@ import pytest
 
 from comprope.errors import SimulationError
 from comprope_system import cli, presets
-from comprope_system.simulation import workflow
+from comprope_system.simulation.trips import workflow
 
 # A coarse rope in a low shaft: seconds matter here, not millimetres.
 QUICK = [
@@ -66,7 +66,7 @@ def test_a_simulated_trip_can_be_driven_again(capsys, tmp_path):
 
 
 def test_a_campaign_beside_the_run_tells_units_and_changes(tmp_path):
-    from comprope_system.simulation.measured_run import read_run
+    from comprope_system.simulation.trips.measured_run import read_run
 
     time = np.arange(0.0, 12.0, 0.02)
     way = np.clip((time - 2.0) / 6.0, 0.0, 1.0)

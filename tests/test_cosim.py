@@ -7,11 +7,11 @@ import pytest
 
 from comprope.errors import InputError, SimulationError
 from comprope.fmi.model_interface import ModelInterface, Variable
-from comprope_system.cosim import Connection, co_simulate
-from comprope_system.cosim.in_process_participant import InProcessParticipant
-from comprope_system.cosim.prescribed_motion import PrescribedMotion
 from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 from comprope_system.measurements.motion.trip import Trip
+from comprope_system.simulation.cosim import Connection, co_simulate
+from comprope_system.simulation.cosim.in_process_participant import InProcessParticipant
+from comprope_system.simulation.cosim.prescribed_motion import PrescribedMotion
 
 
 class Clock:

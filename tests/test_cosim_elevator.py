@@ -9,13 +9,13 @@ import pytest
 from comprope.errors import InputError, SimulationError
 from comprope.rope.model_file import load, with_changes
 from comprope_system import presets
-from comprope_system.cosim import fmu_cache
-from comprope_system.cosim.fmu_cache import NamedFmus
-from comprope_system.cosim.fmu_participant import FmuParticipant
 from comprope_system.presets.inputs import load_drive
-from comprope_system.simulation.elevator import driven_elevator
-from comprope_system.simulation.timing import Timing
-from comprope_system.simulation.trip_simulation import simulate
+from comprope_system.simulation.cosim import fmu_cache
+from comprope_system.simulation.cosim.fmu_cache import NamedFmus
+from comprope_system.simulation.cosim.fmu_participant import FmuParticipant
+from comprope_system.simulation.trips.elevator import driven_elevator
+from comprope_system.simulation.trips.timing import Timing
+from comprope_system.simulation.trips.trip_simulation import simulate
 
 # A coarse rope on a short trip: what is tested is the coupling, not the rope.
 COARSE = {"rope.element_length": 0.2, "solver.step": 0.005, "shaft.height": 12.0}

@@ -15,10 +15,10 @@ from comprope_system.identification.comparison.compare import compare, compared
 from comprope_system.identification.comparison.largest_error import largest_error
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.prediction.replay import relative_to_rest
-from comprope_system.identification.reporting.heat_maps import error_map
-from comprope_system.identification.reporting.pages.comparison import before_and_after
-from comprope_system.identification.reporting.run_curves import run_curves
-from comprope_system.identification.result.comparison import ComparisonResult
+from comprope_system.identification_results.reporting.heat_maps import error_map
+from comprope_system.identification_results.reporting.pages.comparison import before_and_after
+from comprope_system.identification_results.reporting.run_curves import run_curves
+from comprope_system.identification_results.result.comparison import ComparisonResult
 from comprope_system.parallel.executors import threads
 from comprope_system.report import page as pages
 from comprope_system.report.curves import (

@@ -11,7 +11,7 @@ from comprope.errors import InputError
 from comprope.rope.model_file import load
 from comprope_system.campaign_setup.elevator_model.data_sheet import from_data_sheet
 from comprope_system.campaign_setup.elevator_model.rope_catalogue import catalogue_rope
-from comprope_system.identification.hypotheses.plant_parameters import plant_values, with_tolerances
+from comprope_system.identification.prediction.plant_parameters import plant_values, with_tolerances
 from comprope_system.measurements.campaign_file import read_campaign_file
 from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
 

@@ -10,14 +10,14 @@ import comprope_system
 from comprope.errors import InputError
 from comprope.rope.model_file import load
 from comprope_system import cli
-from comprope_system.modal.hanging_string import side_string
 from comprope_system.presets import model_path
-from comprope_system.reduced_model.string_dynamics import string_parameters
-from comprope_system.reduced_model.swing import READ_POSITIONS, ReducedModel
 from comprope_system.sheave_design.building_sway import BuildingSway, parked_departures, worst_parked
 from comprope_system.sheave_design.sensor_placement import choose_sensors
 from comprope_system.sheave_design.trip_envelopes import _at_heights, floor_heights, trips_between
 from comprope_system.sheave_design.workflow import _least_mass
+from comprope_system.vibration.modal.hanging_string import side_string
+from comprope_system.vibration.reduced_model.string_dynamics import string_parameters
+from comprope_system.vibration.reduced_model.swing import READ_POSITIONS, ReducedModel
 
 TOWER = load(model_path("tower50"))
 CASE = ReducedModel(string_parameters(TOWER), 50.0, 1.5)

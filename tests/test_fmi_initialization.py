@@ -14,9 +14,9 @@ from comprope.fmi.model_interface import ModelInterface
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import interface as rope_interface
 from comprope_system import presets
-from comprope_system.cosim import co_simulate
-from comprope_system.cosim.in_process_participant import InProcessParticipant
-from comprope_system.simulation.elevator import BACKWARD, FORWARD
+from comprope_system.simulation.cosim import co_simulate
+from comprope_system.simulation.cosim.in_process_participant import InProcessParticipant
+from comprope_system.simulation.trips.elevator import BACKWARD, FORWARD
 
 from .fmi_pair import Pair
 from .native_fmu import compiler, native_fmu, tower

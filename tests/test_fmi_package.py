@@ -15,7 +15,7 @@ from comprope.fmi.reference_result import DURATION, INPUT_FILE, OUTPUT_FILE, OUT
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.cosimulation import interface
 from comprope_system import presets
-from comprope_system.fmu_export.result import FmuResult
+from comprope_system.simulation.fmu_export.result import FmuResult
 
 ROOT = Path(__file__).parent.parent
 

@@ -16,8 +16,8 @@ from fmpy.fmi1 import FMICallException
 from comprope.errors import InputError
 from comprope.rope.model_file import load
 from comprope_system import presets
-from comprope_system.cosim.fmu_participant import FmuParticipant
-from comprope_system.fmu_export.workflow import elevator_system
+from comprope_system.simulation.cosim.fmu_participant import FmuParticipant
+from comprope_system.simulation.fmu_export.workflow import elevator_system
 
 from .native_fmu import compiler, native_fmu
 

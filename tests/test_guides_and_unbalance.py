@@ -9,8 +9,8 @@ from comprope.rope.effects.checks.trial_state import NODES, TrialState
 from comprope.rope.runtime.array_layout import DXX
 from comprope.rope.runtime.kernel_arguments import Weights
 from comprope.rope.simulator.rope import CompensationRope
-from comprope_system.identification.hypotheses.effect_hypotheses import heights_tried, hypotheses_of_effect
-from comprope_system.identification.hypotheses.model_effects import shapes_of
+from comprope_system.identification.prediction.effect_hypotheses import heights_tried, hypotheses_of_effect
+from comprope_system.identification.prediction.model_effects import shapes_of
 
 from .rope_tower import TOWER, rope, way
 

@@ -7,9 +7,9 @@ import numpy as np
 
 from comprope_system.identification.estimation.identifiability import identifiability
 from comprope_system.identification.estimation.parameter_estimates import Estimate
-from comprope_system.identification.hypotheses.effect_hypotheses import Hypothesis
-from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS, Direction
-from comprope_system.identification.reporting.texts.estimate_sentences import estimate_sentences
+from comprope_system.identification.prediction.effect_hypotheses import Hypothesis
+from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS, Direction
+from comprope_system.identification_results.reporting.texts.estimate_sentences import estimate_sentences
 
 TORQUE, FORCE = "effects.bearing_friction.coulomb_torque", "effects.guide_friction.coulomb_force"
 PLANT = len(PLANT_PARAMETERS)

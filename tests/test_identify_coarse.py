@@ -8,8 +8,8 @@ from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.estimation.coarse_to_fine import fit_coarse_to_fine, with_derivatives
 from comprope_system.identification.estimation.gauss_newton import gauss_newton
 from comprope_system.identification.estimation.weighted_least_squares import build_problem
-from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.prediction.parameter_point import ParameterPoint, collect_predictions, submit_replays
+from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS
 from comprope_system.parallel.executors import threads
 
 from . import virtual_elevator

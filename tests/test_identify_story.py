@@ -24,17 +24,17 @@ from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.experiment_design import ProposedRun, best_two_fits
 from comprope_system.identification.diagnosis.held_out_validation import to_json, validate
 from comprope_system.identification.estimation.parameter_estimates import effect_estimates, standard_error_scale
-from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect
-from comprope_system.identification.hypotheses.model_effects import shape_hypotheses
-from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.model_updating import add_effect
 from comprope_system.identification.model_updating import stepwise_selection as steps
 from comprope_system.identification.model_updating.add_effect import campaign_parameters, file_comment, fit_baseline
-from comprope_system.identification.reporting.pages.verdict_card import verdict_card
-from comprope_system.identification.reporting.texts.effect_descriptions import meaning
+from comprope_system.identification.prediction.effect_hypotheses import combine, hypotheses_of_effect
+from comprope_system.identification.prediction.model_effects import shape_hypotheses
+from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.residuals.residual_correlation import residual_correlations
-from comprope_system.identification.result.diagnosis import DiagnosisResult
-from comprope_system.identification.result.updating import AddResult
+from comprope_system.identification_results.reporting.pages.verdict_card import verdict_card
+from comprope_system.identification_results.reporting.texts.effect_descriptions import meaning
+from comprope_system.identification_results.result.diagnosis import DiagnosisResult
+from comprope_system.identification_results.result.updating import AddResult
 from comprope_system.parallel.executors import threads
 
 from . import virtual_elevator

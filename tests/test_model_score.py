@@ -17,8 +17,8 @@ from comprope_system.identification.estimation.model_score import (
     prior_cost,
 )
 from comprope_system.identification.estimation.weighted_least_squares import Solution, compressed, scale_of, solve, solve_in_scale
-from comprope_system.identification.hypotheses.effect_hypotheses import Hypothesis
-from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS, Direction
+from comprope_system.identification.prediction.effect_hypotheses import Hypothesis
+from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS, Direction
 
 
 def directions(count: int, prior: float = 1.0, **bounds: float) -> tuple[Direction, ...]:

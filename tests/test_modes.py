@@ -12,11 +12,11 @@ from comprope.errors import InputError
 from comprope.rope.runtime import array_layout
 from comprope.rope.runtime.kernel_arguments import Motion, Weights, Workspace
 from comprope.rope.simulator.rope import CompensationRope
-from comprope_system.modal import linearisation
-from comprope_system.modal.hanging_string import HangingString, mass_for_period, side_string
-from comprope_system.modal.linearisation import _interpreted, linearise
-from comprope_system.modal.modes import Modes, modes
 from comprope_system.presets.paper_installations import BUILDING, TOWER, installation, sheave_changes
+from comprope_system.vibration.modal import linearisation
+from comprope_system.vibration.modal.hanging_string import HangingString, mass_for_period, side_string
+from comprope_system.vibration.modal.linearisation import _interpreted, linearise
+from comprope_system.vibration.modal.modes import Modes, modes
 
 CAR = 22.0
 TOWER_MODEL = installation(TOWER)

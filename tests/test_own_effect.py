@@ -26,15 +26,15 @@ from comprope.rope.parameters.parameter_vector import DECLARED
 from comprope.rope.simulator.cosimulation import interface
 from comprope.rope.simulator.rope import CompensationRope, values_of
 from comprope_system import cli
-from comprope_system.cosim import fmu_cache
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.diagnose import diagnose
 from comprope_system.identification.model_updating.add_effect import add_effect
 from comprope_system.parallel.executors import threads
 from comprope_system.presets.inputs import load_drive
-from comprope_system.simulation.elevator import driven_elevator
-from comprope_system.simulation.timing import Timing
-from comprope_system.simulation.trip_simulation import simulate
+from comprope_system.simulation.cosim import fmu_cache
+from comprope_system.simulation.trips.elevator import driven_elevator
+from comprope_system.simulation.trips.timing import Timing
+from comprope_system.simulation.trips.trip_simulation import simulate
 
 from . import virtual_elevator
 from .own_effects import EXAMPLES, FILES, SPRING

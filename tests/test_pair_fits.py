@@ -12,9 +12,9 @@ from comprope_system.identification.diagnosis.candidate_fits import CandidateFit
 from comprope_system.identification.diagnosis.linear_screening import ScreenedHypothesis
 from comprope_system.identification.diagnosis.size_screening import with_sizes
 from comprope_system.identification.estimation.gauss_newton import FitResult
-from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect
-from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
+from comprope_system.identification.prediction.effect_hypotheses import combine, hypotheses_of_effect
 from comprope_system.identification.prediction.parameter_point import ParameterPoint
+from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS
 
 PLANT = len(PLANT_PARAMETERS)
 HYSTERESIS = hypotheses_of_effect(REGISTRY["bending_hysteresis"], ())[0]

@@ -9,7 +9,7 @@ import pytest
 from comprope.errors import InputError
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.estimation.weighted_least_squares import build_problem
-from comprope_system.identification.hypotheses.plant_parameters import (
+from comprope_system.identification.prediction.plant_parameters import (
     PLANT_PARAMETERS,
     USER,
     fixed_parameters,

@@ -9,12 +9,12 @@ from comprope_system.identification.comparison.compare import compare
 from comprope_system.identification.comparison.nrmse import nrmse
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.estimation.linearisation import instrument_slope
-from comprope_system.identification.hypotheses.effect_hypotheses import combine, hypotheses_of_effect, instrument_hypotheses
+from comprope_system.identification.prediction.effect_hypotheses import combine, hypotheses_of_effect, instrument_hypotheses
 from comprope_system.identification.prediction.parameter_point import ParameterPoint
 from comprope_system.identification.preview.effect_preview import preview_effect
 from comprope_system.identification.preview.interpolation import NodeLines
 from comprope_system.identification.preview.sliders import moved, sliders_of
-from comprope_system.identification.result.comparison import ComparisonResult
+from comprope_system.identification_results.result.comparison import ComparisonResult
 from comprope_system.parallel.executors import threads
 from comprope_system.report.curves import BEFORE, MEASURED, MODEL, Curve, Curves, Group, Panel
 from comprope_system.report.page import Section, save_page

@@ -8,7 +8,7 @@ from comprope.errors import InputError
 from comprope_system import cli
 from comprope_system.measurements import recover_trip
 from comprope_system.measurements.motion.jerk_limited_profile import jerk_limited
-from comprope_system.simulation.measured_run import MotionWishes, read_run
+from comprope_system.simulation.trips.measured_run import MotionWishes, read_run
 
 HEIGHT = 50.0
 NOISE = 5e-4  # m

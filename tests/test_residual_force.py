@@ -17,10 +17,9 @@ from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.data.runs import Channel
 from comprope_system.identification.estimation.gauss_newton import gauss_newton
 from comprope_system.identification.estimation.weighted_least_squares import build_problem
-from comprope_system.identification.hypotheses.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.prediction import replay
 from comprope_system.identification.prediction.parameter_point import ParameterPoint, collect_predictions, submit_replays
-from comprope_system.identification.reporting import figures, tables
+from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification.residuals.force_locations import KEY, PROBE, force_locations, with_probe
 from comprope_system.identification.residuals.input_estimation import (
     ForceEstimate,
@@ -29,6 +28,7 @@ from comprope_system.identification.residuals.input_estimation import (
     estimate_residual_force,
 )
 from comprope_system.identification.residuals.regularised_deconvolution import deconvolve, prior_root
+from comprope_system.identification_results.reporting import figures, tables
 from comprope_system.parallel.executors import threads
 from comprope_system.report.json_output import plain
 

@@ -6,7 +6,7 @@ import pytest
 from comprope.rope.model_file import with_changes
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.diagnose import diagnose
-from comprope_system.identification.hypotheses.effect_hypotheses import instrument_hypotheses
+from comprope_system.identification.prediction.effect_hypotheses import instrument_hypotheses
 from comprope_system.identification.prediction.replay import replay
 from comprope_system.identification.prediction.replay_sensitivities import replay_with_sensitivities
 from comprope_system.parallel.executors import threads

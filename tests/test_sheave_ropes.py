@@ -10,8 +10,8 @@ from comprope.rope.model_file import dump, load, with_changes
 from comprope.rope.parameters.parameter_vector import ELEMENT, slot
 from comprope.rope.simulator.cosimulation import interface
 from comprope.rope.simulator.parameter_directions import parameter_change
-from comprope_system.modal.modes import modes
-from comprope_system.reduced_model.string_dynamics import string_parameters
+from comprope_system.vibration.modal.modes import modes
+from comprope_system.vibration.reduced_model.string_dynamics import string_parameters
 
 from .rope_tower import STUB, TOWER, ride, rope
 

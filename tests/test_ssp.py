@@ -15,7 +15,7 @@ from fmpy.ssp.ssd import read_ssd
 
 from comprope.rope.model_file import load
 from comprope_system import presets
-from comprope_system.fmu_export.workflow import elevator_system
+from comprope_system.simulation.fmu_export.workflow import elevator_system
 
 from .native_fmu import compiler, native_fmu
 

@@ -11,8 +11,8 @@ from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope_system.cli import app
 from comprope_system.presets.inputs import read_model
 from comprope_system.sheave_design.stop_cases import stop_case, stop_cases
-from comprope_system.simulation.stop import Stop
-from comprope_system.simulation.stop_motion import StoppedMotion, stopped_motions
+from comprope_system.simulation.trips.stop import Stop
+from comprope_system.simulation.trips.stop_motion import StoppedMotion, stopped_motions
 
 G, SHAFT, BEGIN = 9.81, 200.0, 9.0
 

@@ -9,17 +9,26 @@ import pytest
 from comprope.errors import InputError
 from comprope.rope.integration.state import State
 from comprope.rope.simulator.rope import CompensationRope
-from comprope_system.prescribed_trip import jerk_limited_trip, record_trip, side_shape
-from comprope_system.presets.paper_installations import BUILDING, TOWER, installation, sheave_changes, table, trip_up
+from comprope.rope.simulator.side_shape import side_shape
+from comprope_system.presets.paper_installations import (
+    BUILDING,
+    TOWER,
+    installation,
+    jerk_limited_trip,
+    sheave_changes,
+    table,
+    trip_up,
+)
 from comprope_system.report.page import Picture, Section, Table, save_page, save_pictures
 from comprope_system.report.plot_style import panels
-from comprope_system.studies import fig4, fig5, fig6, fig7, fig8, workflow
-from comprope_system.studies.design import least_mass
-from comprope_system.studies.peaks import oscillator_peak, peak
-from comprope_system.studies.study import StudyOptions
-from comprope_system.studies.swing import MEASURES, swing, swing_case
-from comprope_system.verification import capstan, invariants, offset, reference, shortening
-from comprope_system.verification.free_rope import Hanging, swing_sideways
+from comprope_system.studies.paper import fig4, fig5, fig6, fig7, fig8, workflow
+from comprope_system.studies.paper.design import least_mass
+from comprope_system.studies.paper.peaks import oscillator_peak, peak
+from comprope_system.studies.paper.study import StudyOptions
+from comprope_system.studies.paper.swing import MEASURES, swing, swing_case
+from comprope_system.studies.verification import capstan, invariants, offset, reference, shortening
+from comprope_system.studies.verification.free_rope import Hanging, swing_sideways
+from comprope_system.vibration.prescribed_trip import record_trip
 
 COARSE = {"rope.element_length": 0.1, "solver.step": 0.01}
 

@@ -12,10 +12,10 @@ import comprope_system
 from comprope.errors import InputError
 from comprope.rope.model_file import load, with_changes
 from comprope_system import cli
-from comprope_system.modal.hanging_string import side_string
 from comprope_system.presets import model_path
-from comprope_system.sway_operation.full_simulation import simulated_amplitudes
-from comprope_system.sway_operation.parked_response import Sway, parked_rope
+from comprope_system.vibration.modal.hanging_string import side_string
+from comprope_system.vibration.sway_operation.full_simulation import simulated_amplitudes
+from comprope_system.vibration.sway_operation.parked_response import Sway, parked_rope
 
 TOWER = with_changes(load(model_path("tower50")), {"rope.element_length": 0.1})
 

@@ -175,7 +175,7 @@ def test_results_are_lines_of_json_as_they_come(tmp_path: Path) -> None:
 
 
 def test_processes() -> None:
-    from comprope_system.studies.fig7 import profile
+    from comprope_system.studies.paper.fig7 import profile
 
     trips = [{"trip": {"distance": d, "speed": 9.0, "acceleration": 1.1, "jerk": 0.93}} for d in (10.0, 22.0)]
     with workers(2) as executor:
@@ -197,7 +197,7 @@ def test_other_addresses_are_refused(address: str) -> None:
 
 def test_dask_by_address(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
-    from comprope_system.studies.fig7 import profile
+    from comprope_system.studies.paper.fig7 import profile
 
     trips = [{"trip": {"distance": d, "speed": 9.0, "acceleration": 1.1, "jerk": 0.93}} for d in (10.0, 22.0, 40.0)]
     local = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}

@@ -10,10 +10,10 @@ from typer.testing import CliRunner
 import comprope_system
 from comprope.errors import InputError
 from comprope_system import cli
-from comprope_system.building_motion.modal_building import ModalBuilding
-from comprope_system.building_motion.random_series import random_lines
-from comprope_system.building_motion.spectra import ground_acceleration, wind_force
-from comprope_system.building_motion.synthetic_record import STEP, envelope
+from comprope_system.simulation.building_motion.modal_building import ModalBuilding
+from comprope_system.simulation.building_motion.random_series import random_lines
+from comprope_system.simulation.building_motion.spectra import ground_acceleration, wind_force
+from comprope_system.simulation.building_motion.synthetic_record import STEP, envelope
 
 LONG = 3600.0  # s, so that the estimate of a spectrum is one
 BANDS = ((0.02, 0.1), (0.1, 0.3), (0.3, 1.0), (1.0, 3.0))  # Hz

@@ -12,18 +12,24 @@ from comprope.drive.simulator import DriveSimulator
 from comprope.drive.trajectory.reference_trajectory import first_trajectory
 from comprope.rope.model_file import load, with_changes
 from comprope.rope.simulator.rope import CompensationRope
+from comprope.rope.simulator.side_shape import side_shape
 from comprope_system import cli
 from comprope_system.commands.design.tune import read_times
-from comprope_system.modal.hanging_string import HangingString, side_string
-from comprope_system.prescribed_trip import side_shape
 from comprope_system.presets import model_path
 from comprope_system.presets.inputs import load_drive
-from comprope_system.reduced_model.calibration import calibrated_string
-from comprope_system.reduced_model.hoist_bounce import hoist_bounce
-from comprope_system.reduced_model.sampled_motion import sample_motion
-from comprope_system.reduced_model.state_space import rope_state_space
-from comprope_system.reduced_model.string_dynamics import rest_shape, standstill_modes, string_parameters
-from comprope_system.reduced_model.swing import (
+from comprope_system.tuning import report, travel_time_tradeoff
+from comprope_system.tuning.search import lower_bound, servo_gains
+from comprope_system.tuning.search.profile_families import KINDS, Route, drive_for, trajectory_of
+from comprope_system.tuning.search.quasi_random_search import Candidate, Search, _distinct
+from comprope_system.tuning.search.trajectory_optimisation import Objective, optimised_drive
+from comprope_system.tuning.task import TUNED_PARTS, periods
+from comprope_system.vibration.modal.hanging_string import HangingString, side_string
+from comprope_system.vibration.reduced_model.calibration import calibrated_string
+from comprope_system.vibration.reduced_model.hoist_bounce import hoist_bounce
+from comprope_system.vibration.reduced_model.sampled_motion import sample_motion
+from comprope_system.vibration.reduced_model.state_space import rope_state_space
+from comprope_system.vibration.reduced_model.string_dynamics import rest_shape, standstill_modes, string_parameters
+from comprope_system.vibration.reduced_model.swing import (
     READ_POSITIONS,
     ReducedModel,
     departures_from_rest,
@@ -31,12 +37,6 @@ from comprope_system.reduced_model.swing import (
     observation_time,
     reduced_swing,
 )
-from comprope_system.tuning import report, travel_time_tradeoff
-from comprope_system.tuning.search import lower_bound, servo_gains
-from comprope_system.tuning.search.profile_families import KINDS, Route, drive_for, trajectory_of
-from comprope_system.tuning.search.quasi_random_search import Candidate, Search, _distinct
-from comprope_system.tuning.search.trajectory_optimisation import Objective, optimised_drive
-from comprope_system.tuning.task import TUNED_PARTS, periods
 
 COARSE = {"rope.element_length": 0.1, "solver.step": 0.01}
 TOWER = with_changes(load(model_path("tower50")), COARSE)

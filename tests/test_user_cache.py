@@ -17,8 +17,8 @@ import pytest
 from comprope import user_cache
 from comprope.kernels.disk_cache import compiled_files, source_file
 from comprope.user_cache import KEPT, RECENT, entry_folder, verified_files, write_whole
-from comprope_system.cosim import fmu_cache
-from comprope_system.fmu_export.recipes import Recipe
+from comprope_system.simulation.cosim import fmu_cache
+from comprope_system.simulation.fmu_export.recipes import Recipe
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="owner and mode are not checked on Windows")
 root = pytest.mark.skipif(sys.platform == "win32" or os.getuid() != 0, reason="only root can give a folder to another user")

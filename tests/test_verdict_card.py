@@ -7,9 +7,9 @@ from xml.etree import ElementTree
 import pytest
 
 from comprope.rope.effects import INSTRUMENT, REGISTRY
-from comprope_system.identification.reporting.texts.detection_limits import detection_sentence
-from comprope_system.identification.reporting.texts.effect_descriptions import MEANINGS, drawing, meaning
-from comprope_system.identification.reporting.texts.formatting import in_handy_unit, listed_words, number
+from comprope_system.identification_results.reporting.texts.detection_limits import detection_sentence
+from comprope_system.identification_results.reporting.texts.effect_descriptions import MEANINGS, drawing, meaning
+from comprope_system.identification_results.reporting.texts.formatting import in_handy_unit, listed_words, number
 from comprope_system.report.card import Card
 from comprope_system.report.page import Section, save_page
 

@@ -15,29 +15,29 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .building_motion.workflow import RecordOptions, building
     from .campaign_setup.workflow import new
-    from .fmu_export.workflow import fmu
-    from .identification.workflow import add, check, compare, diagnose, improve
-    from .modal.workflow import modes
+    from .identification_results.workflow import add, check, compare, diagnose, improve
     from .sheave_design.workflow import BuildingSway, DesignOptions, RopeSet, design
-    from .simulation.workflow import CarMotion, Stop, simulate
-    from .sway_operation.workflow import SwayOptions, sway
+    from .simulation.building_motion.workflow import RecordOptions, building
+    from .simulation.fmu_export.workflow import fmu
+    from .simulation.trips.workflow import CarMotion, Stop, simulate
     from .tuning.workflow import TuningOptions, tune
+    from .vibration.modal.workflow import modes
+    from .vibration.sway_operation.workflow import SwayOptions, sway
 
 __all__ = [
     "BuildingSway", "CarMotion", "DesignOptions", "RecordOptions", "RopeSet", "Stop", "SwayOptions", "TuningOptions",
     "add", "building", "check", "compare", "design", "diagnose", "fmu", "improve", "modes", "new", "simulate", "sway", "tune",
 ]  # fmt: skip
 _MODULES = {
-    "building_motion": ("RecordOptions", "building"),
+    "simulation.building_motion": ("RecordOptions", "building"),
     "campaign_setup": ("new",),
-    "fmu_export": ("fmu",),
-    "identification": ("add", "check", "compare", "diagnose", "improve"),
-    "modal": ("modes",),
+    "simulation.fmu_export": ("fmu",),
+    "identification_results": ("add", "check", "compare", "diagnose", "improve"),
+    "vibration.modal": ("modes",),
     "sheave_design": ("BuildingSway", "DesignOptions", "RopeSet", "design"),
-    "simulation": ("CarMotion", "Stop", "simulate"),
-    "sway_operation": ("SwayOptions", "sway"),
+    "simulation.trips": ("CarMotion", "Stop", "simulate"),
+    "vibration.sway_operation": ("SwayOptions", "sway"),
     "tuning": ("TuningOptions", "tune"),
 }
 

@@ -10,8 +10,8 @@ from typing import Any
 import comprope_system
 from comprope.errors import InputError
 
-from ..identification.reporting.texts.estimate_sentences import estimate_in_words
-from ..identification.result.updating import AddResult, ImproveResult
+from ..identification_results.reporting.texts.estimate_sentences import estimate_in_words
+from ..identification_results.result.updating import AddResult, ImproveResult
 from ..parallel.progress import Progress
 from ..report.json_output import plain
 from ..report.result import Result

@@ -12,7 +12,7 @@ from ..campaign_setup.column_roles import Role
 from ..campaign_setup.corrections import Corrections
 from ..identification.data.campaign import Campaign, load_campaign
 from ..identification.prediction.replay import relative_to_rest
-from ..identification.reporting.run_curves import phase_spans
+from ..identification_results.reporting.run_curves import phase_spans
 from ..measurements.campaign_file import MotionColumn
 from ..report.curves import MODEL, Curve, Curves, Group, Panel
 from ..report.page import Section, save_page

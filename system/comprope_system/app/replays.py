@@ -14,8 +14,8 @@ from ..identification.comparison.compare import compare as compare_at
 from ..identification.prediction.parameter_point import ParameterPoint
 from ..identification.preview.effect_preview import EffectPreview
 from ..identification.preview.sliders import moved
-from ..identification.reporting.pages.comparison import worst_run
-from ..identification.reporting.pages.preview import preview_block
+from ..identification_results.reporting.pages.comparison import worst_run
+from ..identification_results.reporting.pages.preview import preview_block
 from ..parallel.executors import threads
 from ..report.curves import decode
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from ..identification.result.check import CheckResult
+from ..identification_results.result.check import CheckResult
 from ..report.result import Result
 from .column_roles import Role
 

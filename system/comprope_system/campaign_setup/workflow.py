@@ -7,7 +7,7 @@ from comprope.atomic_files import atomic_write
 from comprope.errors import InputError
 from comprope.rope.effects import RopeModel
 
-from ..identification.workflow import check
+from ..identification_results.workflow import check
 from ..measurements.files.raw_table import printable
 from ..measurements.files.reader import require_regular_file
 from ..measurements.units import MOTIONS

@@ -1,1 +1,1 @@
-"""From measurements to a better model: campaigns, comparison, diagnosis, and effects added with fitted parameters."""
+"""From measurements to a better model: comparison, diagnosis of the missing effect, and effects added with fitted parameters."""

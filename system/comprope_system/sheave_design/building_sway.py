@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..reduced_model.finite_elements import band_times, interpolation_matrix, matrices, nodes
-from ..reduced_model.string_dynamics import standstill_modes
-from ..reduced_model.swing import READ_POSITIONS, SIDES, ReducedModel
+from ..vibration.reduced_model.finite_elements import band_times, interpolation_matrix, matrices, nodes
+from ..vibration.reduced_model.string_dynamics import standstill_modes
+from ..vibration.reduced_model.swing import READ_POSITIONS, SIDES, ReducedModel
 
 Floats = NDArray[np.float64]
 

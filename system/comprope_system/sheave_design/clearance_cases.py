@@ -8,9 +8,9 @@ import numpy as np
 from comprope.drive.parameters import Drive, Profile
 from comprope.rope.effects import RopeModel
 
-from ..reduced_model.swing import READ_POSITIONS, SIDES
-from ..simulation.workflow import CarMotion, simulate
+from ..simulation.trips.workflow import CarMotion, simulate
 from ..tuning.task import reduced_model_of
+from ..vibration.reduced_model.swing import READ_POSITIONS, SIDES
 from .building_sway import BuildingSway, parked_departures
 
 

@@ -8,9 +8,9 @@ import numpy as np
 from comprope.drive.parameters import Profile
 from comprope.rope.effects import RopeModel
 
-from ..modal.hanging_string import side_string
 from ..report.page import Block, Picture, Section, Table
 from ..report.plot_style import COLOURS, GREY, label, legend, panels, plain_log
+from ..vibration.modal.hanging_string import side_string
 from .trip_envelopes import floor_heights, s_curve_trajectory
 
 TITLE = "Compensation rope: sheave and sensors"

@@ -10,8 +10,8 @@ from comprope.drive.trajectory.s_curve import plan_s_curve
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, validated
 
-from ..simulation.stop import Stop
-from ..simulation.workflow import CarMotion, simulate
+from ..simulation.trips.stop import Stop
+from ..simulation.trips.workflow import CarMotion, simulate
 from .trip_envelopes import floor_heights
 
 STOPS = {"drive": Stop(), "1 g": Stop(deceleration=9.81), "safety gear": Stop(safety_gear=True)}

@@ -14,8 +14,10 @@ from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import validated, with_changes
 
 from ..presets.paper_installations import sheave_changes
-from ..reduced_model.sampled_motion import sample_motion
-from ..reduced_model.swing import (
+from ..tuning.search.profile_families import REST_BEFORE
+from ..tuning.task import reduced_model_of
+from ..vibration.reduced_model.sampled_motion import sample_motion
+from ..vibration.reduced_model.swing import (
     READ_POSITIONS,
     SEARCH_STEP,
     ReducedModel,
@@ -24,8 +26,6 @@ from ..reduced_model.swing import (
     observation_time,
     reduced_swing,
 )
-from ..tuning.search.profile_families import REST_BEFORE
-from ..tuning.task import reduced_model_of
 from .building_sway import BuildingSway, worst_parked
 
 Floats = NDArray[np.float64]

@@ -18,10 +18,10 @@ from ..parallel.progress import Progress, no_progress
 from ..parallel.sweep import sweep, values
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model, require_still_building
 from ..presets.overrides import Changes
-from ..reduced_model.swing import SIDES, observation_time
-from ..simulation.clearance import known_wall
-from ..studies.design import TOLERANCE
+from ..simulation.trips.clearance import known_wall
+from ..studies.paper.design import TOLERANCE
 from ..tuning.task import reduced_model_of
+from ..vibration.reduced_model.swing import SIDES, observation_time
 from .building_sway import BuildingSway, parked_departures
 from .clearance_cases import clearances
 from .result import DesignResult

@@ -1,1 +1,1 @@
-"""One trip of drive and rope: simulation, results, plots and animation."""
+"""Simulation of drive and rope: FMUs, co-simulation, moving buildings, and trips with their results, plots and animation."""

@@ -1,4 +1,1 @@
-"""Reproduction of the results of Nakazawa et al., "Lateral vibration analysis for elevator compensation rope".
-
-One study per module, its `STUDY`. Stated values are taken from the text of the paper.
-"""
+"""Results of the paper, and verification of the numerics against closed forms."""

@@ -10,11 +10,11 @@ from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 from comprope.rope.effects import RopeModel
 from comprope.rope.parameters import Sensor
 
-from ..cosim import co_simulate
-from ..reduced_model.string_dynamics import rest_shape
-from ..reduced_model.swing import SIDES, ReducedModel, Swing, largest_swing, swing_of_departures
-from ..simulation.elevator import driven_elevator
-from ..simulation.result_columns import lateral_output, view_output
+from ..simulation.cosim import co_simulate
+from ..simulation.trips.elevator import driven_elevator
+from ..simulation.trips.result_columns import lateral_output, view_output
+from ..vibration.reduced_model.string_dynamics import rest_shape
+from ..vibration.reduced_model.swing import SIDES, ReducedModel, Swing, largest_swing, swing_of_departures
 from .search.profile_families import Route, trajectory_of
 
 Floats = NDArray[np.float64]

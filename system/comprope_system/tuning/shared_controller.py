@@ -8,7 +8,7 @@ import numpy as np
 
 from comprope.drive.parameters import Drive
 
-from ..reduced_model.swing import Swing, reduced_swing
+from ..vibration.reduced_model.swing import Swing, reduced_swing
 from .search.profile_families import KINDS, trajectory_of
 from .search.quasi_random_search import Candidate, Search
 from .search.trajectory_optimisation import Objective

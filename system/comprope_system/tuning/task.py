@@ -8,11 +8,11 @@ from comprope.drive.parameters import Drive
 from comprope.rope.effects import RopeModel
 from comprope.rope.model_file import as_table, with_changes
 
-from ..modal.hanging_string import side_string
 from ..presets.paper_installations import sheave_changes
-from ..reduced_model.calibration import calibrated_string
-from ..reduced_model.hoist_bounce import HoistBounce, hoist_bounce
-from ..reduced_model.swing import ReducedModel, Swing, observation_time
+from ..vibration.modal.hanging_string import side_string
+from ..vibration.reduced_model.calibration import calibrated_string
+from ..vibration.reduced_model.hoist_bounce import HoistBounce, hoist_bounce
+from ..vibration.reduced_model.swing import ReducedModel, Swing, observation_time
 from .fmu_validation import simulate_route
 from .search.profile_families import Route, trajectory_of
 

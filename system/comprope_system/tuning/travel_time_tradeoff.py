@@ -7,7 +7,7 @@ import numpy as np
 
 from comprope.drive.parameters import Drive
 
-from ..reduced_model.swing import reduced_swing
+from ..vibration.reduced_model.swing import reduced_swing
 from .search.profile_families import trajectory_of
 from .search.trajectory_optimisation import Objective, optimised_drive
 from .task import Task, evaluated

@@ -9,8 +9,8 @@ from comprope.drive.parameters import Drive
 from comprope.errors import InputError
 from comprope.rope.model_file import validated
 
-from ..modal.hanging_string import side_string
-from ..reduced_model.swing import SIDES, Swing, observation_time, reduced_swing
+from ..vibration.modal.hanging_string import side_string
+from ..vibration.reduced_model.swing import SIDES, Swing, observation_time, reduced_swing
 from . import travel_time_tradeoff
 from .fmu_validation import DepartureTrace, simulate_route
 from .search import lower_bound

@@ -16,8 +16,8 @@ from ..parallel.progress import Progress, no_progress
 from ..parallel.sweep import sweep, values
 from ..presets.inputs import DriveInput, ModelInput, model_name, read_drive, read_model, require_still_building
 from ..presets.overrides import Changes
-from ..reduced_model.calibration import calibrated_string
-from ..reduced_model.state_space import as_json, rope_state_space
+from ..vibration.reduced_model.calibration import calibrated_string
+from ..vibration.reduced_model.state_space import as_json, rope_state_space
 from .result import TuningResult
 from .search.profile_families import Route
 from .search.servo_gains import Gains, best_gains, loop_margins

@@ -155,8 +155,8 @@ def simulate(model: MODEL, motion: MotionOptions, stop: StopOptions, options: Ru
 
 def _require_wall(model: str, changes: list[str] | None, wall: float | None) -> None:
     """Raise `InputError` without a wall [m], before a long computation."""
-    from ...simulation.clearance import known_wall
-    from ...simulation.workflow import changed_model
+    from ...simulation.trips.clearance import known_wall
+    from ...simulation.trips.workflow import changed_model
 
     known_wall(changed_model(model, changes)[0], wall)
 

@@ -31,8 +31,8 @@ def study(
     `design` computes the smallest sheave mass for a displacement limit. An interrupted run is resumed if it is
     started again with the same folder.
     """
-    from ...studies.study import StudyOptions
-    from ...studies.workflow import Request, run
+    from ...studies.paper.study import StudyOptions
+    from ...studies.paper.workflow import Request, run
 
     with progress_display() as progress:
         run(Request(names or (), out, jobs, executor, StudyOptions(building, distance, 1e-3 * limit)), progress)

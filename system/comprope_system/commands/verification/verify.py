@@ -19,6 +19,6 @@ def verify(names: NAMES = None, out: OUT = Path("verification")) -> None:
 
     Writes an HTML page with tables and figures; the exit status is 1 if a check fails.
     """
-    from ...verification.workflow import run
+    from ...studies.verification.workflow import run
 
     run(names or (), out)

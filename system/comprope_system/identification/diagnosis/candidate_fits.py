@@ -13,10 +13,10 @@ from ..estimation.initial_guess import best_initial_guess
 from ..estimation.mass_search import search_rope_mass
 from ..estimation.model_score import NoiseLevel, complexity_penalty, log_score
 from ..estimation.weighted_least_squares import LeastSquaresProblem
-from ..hypotheses.effect_hypotheses import Hypothesis, combine
-from ..hypotheses.model_effects import shape_hypotheses
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.effect_hypotheses import Hypothesis, combine
+from ..prediction.model_effects import shape_hypotheses
 from ..prediction.parameter_point import ParameterPoint
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback
 from ..settings import CANDIDATES
 from .linear_screening import ScreenedHypothesis

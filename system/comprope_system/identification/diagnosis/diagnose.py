@@ -16,9 +16,9 @@ from ..estimation.coarse_to_fine import fit_from_file
 from ..estimation.gauss_newton import FitResult
 from ..estimation.model_score import NoiseLevel, complexity_penalty, least_noticed, log_score
 from ..estimation.weighted_least_squares import LeastSquaresProblem, build_problem
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 from ..settings import CANDIDATES, SCORE, SCREENING, VERDICT
 from .candidate_fits import CandidateFit, FitContext, least_chi_square, noise_level

@@ -11,8 +11,8 @@ from ..comparison.data_quality import remarks
 from ..comparison.nrmse import nrmse
 from ..estimation.gauss_newton import FitResult
 from ..estimation.parameter_estimates import Estimate, keys_set_by_runs, plant_estimates, standard_error_scale
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.model_effects import effect_name, short_names
+from ..prediction.effect_hypotheses import Hypothesis
+from ..prediction.model_effects import effect_name, short_names
 from ..prediction.parameter_point import ParameterPoint
 from ..settings import VERDICT
 from .diagnose import Candidate, Diagnosis

@@ -18,9 +18,9 @@ from ..estimation.mass_search import MASS, fits_at_masses
 from ..estimation.model_score import complexity_penalty, penalised_chi_square
 from ..estimation.per_run_phase import solve_per_run_phases
 from ..estimation.weighted_least_squares import LeastSquaresProblem, solve_in_scale
-from ..hypotheses.effect_hypotheses import Hypothesis, effect_hypotheses, instrument_hypotheses
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.effect_hypotheses import Hypothesis, effect_hypotheses, instrument_hypotheses
 from ..prediction.parameter_point import ParameterPoint
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..prediction.replay import coarsening_factor
 from ..settings import SCREENING
 from .frequency_candidates import residual_peak_frequencies, sway_frequencies

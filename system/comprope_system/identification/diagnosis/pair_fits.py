@@ -8,9 +8,9 @@ import numpy as np
 from comprope.errors import SimulationError
 
 from ..estimation.gauss_newton import FitResult, gauss_newton
-from ..hypotheses.effect_hypotheses import Hypothesis, combine
-from ..hypotheses.model_effects import components_by_effect, effect_name
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.effect_hypotheses import Hypothesis, combine
+from ..prediction.model_effects import components_by_effect, effect_name
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..settings import CANDIDATES
 from .candidate_fits import CandidateFit, FitContext, corrected_by_full_mesh, with_mass_search
 from .linear_screening import ScreenedHypothesis, screen_hypotheses

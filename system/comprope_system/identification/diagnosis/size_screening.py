@@ -18,7 +18,7 @@ from comprope.rope.effects import REGISTRY
 from ..estimation.gauss_newton import FitResult
 from ..estimation.linearisation import with_effect
 from ..estimation.weighted_least_squares import LeastSquaresProblem, solve_in_scale
-from ..hypotheses.effect_hypotheses import Hypothesis, effect_hypotheses, instrument_hypotheses
+from ..prediction.effect_hypotheses import Hypothesis, effect_hypotheses, instrument_hypotheses
 from ..prediction.parameter_point import ParameterPoint, Predictions
 from ..prediction.replay import coarsening_factor, delayed, relative_to_rest
 from ..settings import HYPOTHESES, SCREENING

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from comprope.errors import SimulationError
 
-from ..hypotheses.effect_hypotheses import Hypothesis
+from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint, Predictions
 from .gauss_newton import FitResult, evaluate, fit_on_full_mesh, gauss_newton
 from .linearisation import point_at

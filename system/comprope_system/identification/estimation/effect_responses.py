@@ -13,7 +13,7 @@ from comprope.errors import SimulationError
 from comprope.rope.effects import RopeModel
 
 from ..data.runs import Channel, Run
-from ..hypotheses.effect_hypotheses import Hypothesis
+from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint, run_at_point
 from ..prediction.replay import coarsening_factor
 from ..prediction.replay_sensitivities import replay_with_sensitivities

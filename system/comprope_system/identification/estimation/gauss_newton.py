@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from comprope.errors import SimulationError
 
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint, Predictions
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..settings import GAUSS_NEWTON
 from .linearisation import linearise, point_at
 from .model_score import chi_square_resolution, penalised_chi_square

@@ -7,8 +7,8 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS, Direction
+from ..prediction.effect_hypotheses import Hypothesis
+from ..prediction.plant_parameters import PLANT_PARAMETERS, Direction
 from ..settings import ESTIMATES
 from .gauss_newton import FitResult
 from .parameter_estimates import Estimate

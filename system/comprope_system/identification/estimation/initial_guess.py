@@ -10,9 +10,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..settings import INITIAL_GUESS
 from .gauss_newton import FitResult
 from .linearisation import point_at

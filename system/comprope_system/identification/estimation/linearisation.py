@@ -13,9 +13,9 @@ from comprope.rope.parameters.parameter_vector import DECLARED
 from comprope.rope.simulator.rope import values_of
 
 from ..data.runs import Channel, Run
-from ..hypotheses.effect_hypotheses import SENSOR_HEIGHT, Hypothesis
-from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS, Direction
+from ..prediction.effect_hypotheses import SENSOR_HEIGHT, Hypothesis
 from ..prediction.parameter_point import ParameterPoint, Predictions, run_at_point
+from ..prediction.plant_parameters import CLOCK, PLANT_PARAMETERS, Direction
 from ..prediction.replay import relative_to_rest, sensor_heights
 from ..prediction.replay_sensitivities import replay_with_sensitivities
 from ..settings import LINEARISATION, REPLAY

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from comprope.errors import SimulationError
 
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, Predictions
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..prediction.replay import coarsening_factor
 from ..settings import MASS_SEARCH
 from .gauss_newton import FitResult, gauss_newton

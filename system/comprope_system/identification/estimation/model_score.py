@@ -18,8 +18,8 @@ from math import exp, log, log1p
 import numpy as np
 from numpy.typing import NDArray
 
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS, Direction
+from ..prediction.effect_hypotheses import Hypothesis
+from ..prediction.plant_parameters import PLANT_PARAMETERS, Direction
 from ..settings import SCORE
 
 

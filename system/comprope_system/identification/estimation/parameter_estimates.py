@@ -12,8 +12,8 @@ from comprope.rope.effects import REGISTRY, RopeModel
 from comprope.rope.model_file import with_changes
 
 from ..data.campaign import Campaign
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS, plant_values
+from ..prediction.effect_hypotheses import Hypothesis
+from ..prediction.plant_parameters import CLOCK, PLANT_PARAMETERS, plant_values
 from ..settings import ESTIMATES, SCORE
 from .gauss_newton import FitResult
 from .weighted_least_squares import scale_of

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import Direction
+from ..prediction.effect_hypotheses import Hypothesis
+from ..prediction.plant_parameters import Direction
 from ..settings import ESTIMATES
 from .gauss_newton import FitResult
 from .weighted_least_squares import LeastSquaresProblem, solve_in_scale

@@ -14,9 +14,9 @@ from comprope.errors import SimulationError
 from ..data.campaign import Campaign
 from ..data.runs import Run
 from ..data.whitening import WhitenedChannel, stack, whiten_channel
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.plant_parameters import Direction, fixed_parameters, plant_values, with_tolerances
+from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint, Predictions, collect_predictions, submit_replays
+from ..prediction.plant_parameters import Direction, fixed_parameters, plant_values, with_tolerances
 from ..prediction.replay import coarsening_factor, relative_to_rest
 from .model_score import prior_cost
 

@@ -29,8 +29,8 @@ from ..estimation.parameter_estimates import (
     standard_error_scale,
 )
 from ..estimation.weighted_least_squares import LeastSquaresProblem, build_problem
-from ..hypotheses.effect_hypotheses import Hypothesis, combine
-from ..hypotheses.model_effects import (
+from ..prediction.effect_hypotheses import Hypothesis, combine
+from ..prediction.model_effects import (
     components_by_effect,
     effect_name,
     effects_in_model,
@@ -39,8 +39,8 @@ from ..hypotheses.model_effects import (
     short_names,
     stated_effect,
 )
-from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
 from ..prediction.parameter_point import ParameterPoint, collect_predictions, submit_replays
+from ..prediction.plant_parameters import CLOCK, PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 
 Floats = NDArray[np.float64]

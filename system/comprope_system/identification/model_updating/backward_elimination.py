@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from ..estimation.coarse_to_fine import fit_coarse_to_fine
 from ..estimation.gauss_newton import FitResult
 from ..estimation.model_score import NoiseLevel, log_score
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.model_effects import combined_or_none, components_by_effect
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.effect_hypotheses import Hypothesis
+from ..prediction.model_effects import combined_or_none, components_by_effect
 from ..prediction.parameter_point import ParameterPoint
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 from ..settings import SCORE
 from .add_effect import BaselineFit

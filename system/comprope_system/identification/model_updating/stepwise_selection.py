@@ -15,9 +15,9 @@ from ..comparison.compare import Comparison, compare
 from ..data.campaign import Campaign
 from ..diagnosis.diagnose import Diagnosis, diagnose
 from ..estimation.gauss_newton import FitResult
-from ..hypotheses.effect_hypotheses import combine
-from ..hypotheses.model_effects import components_by_effect
-from ..hypotheses.plant_parameters import PLANT_PARAMETERS
+from ..prediction.effect_hypotheses import combine
+from ..prediction.model_effects import components_by_effect
+from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 from ..settings import MODEL_UPDATING
 from .add_effect import BaselineFit, UpdatedModel, fit_baseline, fit_with_effect, updated_model

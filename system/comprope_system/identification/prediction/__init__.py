@@ -1,1 +1,1 @@
-"""What the model predicts for measured runs, and its parameter sensitivities."""
+"""What the model predicts for measured runs: its unknowns (plant parameters with priors, effects), replays, sensitivities."""

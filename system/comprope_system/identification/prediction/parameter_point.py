@@ -15,8 +15,8 @@ from comprope.rope.simulator.rope import values_of
 
 from ..data.campaign import Campaign
 from ..data.runs import Channel, Run
-from ..hypotheses.plant_parameters import CLOCK, PLANT_PARAMETERS
 from ..settings import REPLAY
+from .plant_parameters import CLOCK, PLANT_PARAMETERS
 from .replay import replay
 
 Floats = NDArray[np.float64]

@@ -8,8 +8,8 @@ from comprope.errors import SimulationError
 from ..data.campaign import Campaign
 from ..diagnosis.diagnose import Diagnosis
 from ..estimation.gauss_newton import FitResult
-from ..hypotheses.effect_hypotheses import Hypothesis
-from ..hypotheses.model_effects import effect_name, effects_in_model
+from ..prediction.effect_hypotheses import Hypothesis
+from ..prediction.model_effects import effect_name, effects_in_model
 from ..prediction.parameter_point import ParameterPoint
 from ..progress import ProgressCallback
 from ..settings import PREVIEW

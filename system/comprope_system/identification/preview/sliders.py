@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from ..hypotheses.effect_hypotheses import Hypothesis
+from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint
 from ..settings import PREVIEW
 from .interpolation import NodeLines

@@ -14,7 +14,7 @@ from scipy.optimize import linprog
 from comprope.drive.parameters import Drive
 from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 
-from ...reduced_model.sampled_motion import sample_motion
+from ...vibration.reduced_model.sampled_motion import sample_motion
 from .profile_families import Route
 
 PARTS = 40  # of half the travel time

@@ -10,7 +10,7 @@ from scipy.stats import qmc
 
 from comprope.drive.parameters import Drive
 
-from ...reduced_model.swing import Swing
+from ...vibration.reduced_model.swing import Swing
 from .profile_families import SHARES, Route, drive_in_time, share_names
 
 Floats = NDArray[np.float64]

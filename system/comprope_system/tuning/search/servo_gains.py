@@ -9,7 +9,7 @@ import numpy as np
 from comprope.drive.control.stability_margins import Margins, margins, unstable_positions
 from comprope.drive.parameters import Drive, Servo
 
-from ...reduced_model.hoist_bounce import hoist_bounce
+from ...vibration.reduced_model.hoist_bounce import hoist_bounce
 
 MIN_GAIN_MARGIN, MIN_PHASE_MARGIN, MIN_DELAY_MARGIN = 2.0, 45.0, 0.02  # factor, degrees, s
 POSITION = (0.5, 1.0, 1.5)  # of the present position bandwidth

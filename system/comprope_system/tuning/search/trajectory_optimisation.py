@@ -17,8 +17,8 @@ from comprope.drive.parameters import INTERVALS, Curve, Drive
 from comprope.drive.trajectory.free_curve import FreeCurve
 from comprope.drive.trajectory.reference_trajectory import ReferenceTrajectory
 
-from ...reduced_model.sampled_motion import sample_motion
-from ...reduced_model.swing import (
+from ...vibration.reduced_model.sampled_motion import sample_motion
+from ...vibration.reduced_model.swing import (
     READ_POSITIONS,
     SEARCH_STEP,
     ReducedModel,

@@ -1,1 +1,0 @@
-"""What may be missing from the model: effects, instrument errors, plant parameters with priors."""

@@ -1,0 +1,1 @@
+"""One trip of drive and rope: simulation, results, plots and animation."""
