@@ -1,4 +1,4 @@
-"""Tuning constants of the identification are declared in one package, each with its unit, meaning and origin."""
+"""Tuning constants of the identification and of its results are declared in one package, each with unit, meaning and origin."""
 
 import ast
 import dataclasses
@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from comprope_system import identification
+from comprope_system import identification, identification_results
 from comprope_system.identification.settings import GROUPS, settings_of
 
-ROOT = Path(identification.__file__).parent
+FOLDERS = [Path(package.__file__).parent for package in (identification, identification_results)]
 ALLOWED = {
     ("residuals/force_probe_effect.py", "MOST"),  # bound of a declared quantity, in a file that stands alone as a user's effect
     # The layout of printed text and pages:
@@ -54,9 +54,11 @@ def test_a_numeric_constant_is_recognised(line):
 
 
 def test_no_other_module_defines_a_tuning_constant():
-    files = [path for path in ROOT.rglob("*.py") if path.parent.name != "settings"]
+    files = [(root, path) for root in FOLDERS for path in root.rglob("*.py") if path.parent.name != "settings"]
     assert len(files) > 30
-    found = {(path.relative_to(ROOT).as_posix(), name) for path in files for name in numeric_constants(path.read_text("utf-8"))}
+    found = {
+        (path.relative_to(root).as_posix(), name) for root, path in files for name in numeric_constants(path.read_text("utf-8"))
+    }
     assert found == ALLOWED
 
 

@@ -130,7 +130,13 @@ def test_results_of_another_version_of_the_program_are_not_taken_over(tmp_path: 
 def test_the_key_covers_every_module_that_a_task_runs() -> None:
     """Also those that only the tasks of one command import, and the presets."""
     covered = set(sweep_module.source_files())
-    modules = ("prescribed_trip", "reduced_model.swing", "tuning.task", "modal.modes", "presets.paper_installations")
+    modules = (
+        "vibration.prescribed_trip",
+        "vibration.reduced_model.swing",
+        "tuning.task",
+        "vibration.modal.modes",
+        "presets.paper_installations",
+    )
     kernels = ("comprope.rope.integration.newmark", "comprope.drive.trajectory.s_curve")
     for name in (*(f"comprope_system.{name}" for name in modules), *kernels):
         assert Path(str(importlib.import_module(name).__file__)) in covered, name
