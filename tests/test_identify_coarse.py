@@ -1,10 +1,14 @@
 """Fits on a coarse mesh and continued on the full one give what fits on the full mesh alone give."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from comprope.rope.model_file import with_changes
 from comprope_system.identification.data.campaign import load_campaign
+from comprope_system.identification.diagnosis.candidate_fits import problem_of_fits
 from comprope_system.identification.estimation.coarse_to_fine import fit_coarse_to_fine, with_derivatives
 from comprope_system.identification.estimation.gauss_newton import gauss_newton
 from comprope_system.identification.estimation.weighted_least_squares import build_problem
@@ -36,3 +40,21 @@ def test_a_fit_continued_from_the_coarse_mesh_ends_where_one_on_the_full_mesh_do
     assert np.sqrt(np.mean(apart**2)) < 0.15
     errors = np.sqrt(np.diag(found.covariance) / np.diag(reference.covariance))
     assert errors == pytest.approx(np.ones(len(start)), rel=0.5)
+
+
+@pytest.mark.parametrize(("error", "on_coarse_mesh"), [(0.2, True), (0.3, False)])
+def test_effects_are_fitted_on_the_full_mesh_where_the_coarse_one_errs_by_what_they_explain(
+    tmp_path, monkeypatch, error, on_coarse_mesh
+):
+    """The plant leaves three times the noise: twice beyond it. The coarse mesh errs by a share of that."""
+    monkeypatch.setattr(virtual_elevator, "MODEL", with_changes(virtual_elevator.MODEL, {"rope.element_length": 0.06}))
+    campaign = load_campaign(virtual_elevator.campaign(tmp_path, {}))
+    runs = campaign.of_role("fit")
+    with threads() as executor:
+        nominal = collect_predictions(runs, submit_replays(campaign, runs, ParameterPoint(), executor))
+        problem = build_problem(campaign, runs, executor, nominal)
+        coarse, count = problem.coarsened(ParameterPoint(), nominal), len(problem.data)
+        rough = replace(coarse, data=coarse.data + np.sqrt(2.0 * error))
+        baseline = SimpleNamespace(point=ParameterPoint(), predictions=nominal, chi_square=3.0 * count)
+        found = problem_of_fits(problem, rough, baseline)
+    assert found.coarse == (coarse.coarse if on_coarse_mesh else 1.0)

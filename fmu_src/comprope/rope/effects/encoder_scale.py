@@ -15,7 +15,6 @@ class EncoderScale(Effect):
     """Wrong scale of the signal of the car's position."""
 
     name = "encoder_scale"
-    proportional = True
     excess: float = quantity(
         "1", "what the signal of the car's position shows beyond the true height, over it", -0.5, 0.5, nominal=1e-3, off=0.0
     )

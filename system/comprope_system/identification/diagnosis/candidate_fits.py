@@ -55,7 +55,8 @@ class CandidateFit(NamedTuple):
 class FitContext:
     """What the candidate fits of a diagnosis share: the problem, the point without new effects, and the fit of the plant.
 
-    `problem` is the coarsened one of `full_problem`, on which the fits are made; the best of them are continued on the full mesh.
+    `problem` is the one on which the fits are made. Where it is the coarsened one of `full_problem`, the best of them are
+    continued on the full mesh.
     """
 
     full_problem: LeastSquaresProblem
@@ -63,6 +64,17 @@ class FitContext:
     origin: ParameterPoint
     baseline: FitResult
     report_progress: ProgressCallback
+
+
+def problem_of_fits(problem: LeastSquaresProblem, rough: LeastSquaresProblem, baseline: FitResult) -> LeastSquaresProblem:
+    """The problem on the coarse mesh, corrected about the plant's fit; on its own mesh where that errs too much.
+
+    `rough` is corrected about the point at which the plant's fit began. How the correction has changed from there tells by how
+    much the coarse mesh errs elsewhere, beside what the plant's fit leaves beyond noise.
+    """
+    coarse = problem.coarsened(baseline.point, baseline.predictions)
+    error = float(np.sum((rough.data - coarse.data) ** 2))
+    return coarse if error <= CANDIDATES.coarse_error * (baseline.chi_square - len(problem.data)) else problem
 
 
 def noise_level(context: FitContext, found: Iterable[CandidateFit]) -> NoiseLevel:

@@ -21,7 +21,7 @@ from ..prediction.parameter_point import ParameterPoint, Predictions, collect_pr
 from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 from ..settings import CANDIDATES, SCORE, SCREENING, VERDICT
-from .candidate_fits import CandidateFit, FitContext, least_chi_square, noise_level
+from .candidate_fits import CandidateFit, FitContext, least_chi_square, noise_level, problem_of_fits
 from .candidate_selection import FullMeshFits, fit_candidates, refit_from_other_masses
 from .linear_screening import ScreenedHypothesis, indistinguishable, screen_at_other_masses, screen_hypotheses
 from .pair_fits import fit_pair, with_single_fits
@@ -94,14 +94,15 @@ def diagnose(
         problem, None, start, origin, nominal, search_mass=not start.any()
     )
     initial_fit = replace(on_coarse_mesh, predictions=nominal)
-    context = FitContext(problem, problem.coarsened(baseline.point, baseline.predictions), origin, baseline, report_progress)
+    context = FitContext(problem, problem_of_fits(problem, rough, baseline), origin, baseline, report_progress)
+    of_changes = problem if context.problem is problem else problem.on_coarse_mesh()
     report_progress("linear screening of all effects")
-    screened = screen_hypotheses(problem, origin, baseline, initial_fit)
+    screened = screen_hypotheses(of_changes, origin, baseline, initial_fit)
     if baseline.chi_square > CANDIDATES.explained * len(problem.data):
         report_progress("screening at several sizes of each effect")
         close = baseline.chi_square < SCREENING.close_fit * len(problem.data)
         about = (baseline,) if close else (baseline, initial_fit)
-        screened = with_sizes(screened, screen_at_sizes(problem, origin, about))
+        screened = with_sizes(screened, screen_at_sizes(of_changes, origin, about))
     found = fit_candidates(context, screened)
     full_mesh_fits = FullMeshFits(context)
     finished = full_mesh_fits.with_best_finished(found)

@@ -2,7 +2,7 @@
 
 Dry friction, hysteresis and delay do not act in proportion to their size: twice the friction is no twofold response, and where it
 holds the sheave the response no longer resembles that of a little friction. Each amplitude is therefore simulated at several
-sizes on a coarse mesh, from the plant as stated and as refitted, and the plant's parameters are refitted linearly there, together
+sizes, from the plant as stated and as refitted, and the plant's parameters are refitted linearly there, together
 with the size along the secant. One run decides, the one of which least is explained. Delays shift the predictions and need no
 simulation.
 """
@@ -20,7 +20,7 @@ from ..estimation.linearisation import with_effect
 from ..estimation.weighted_least_squares import LeastSquaresProblem, solve_in_scale
 from ..prediction.effect_hypotheses import Hypothesis, effect_hypotheses, instrument_hypotheses
 from ..prediction.parameter_point import ParameterPoint, Predictions
-from ..prediction.replay import coarsening_factor, delayed, relative_to_rest
+from ..prediction.replay import delayed, relative_to_rest
 from ..settings import HYPOTHESES, SCREENING
 from .linear_screening import ScreenedHypothesis, best_per_effect, imitable_responses, orthogonal_response
 
@@ -98,7 +98,7 @@ def _effects_at_sizes(
         for size in sorted({max(min(size, direction.upper), direction.lower) for size in SCREENING.sizes})
     ]
     points = [with_effect(fit.point, one, [size * (j == k) for j in range(len(one.directions))]) for one, k, size in tried]
-    before, *after = problem.attempts(fit.point, *points, coarse=coarsening_factor(problem.campaign.model))
+    before, *after = problem.attempts(fit.point, *points)
     if before is None:
         return
     unaffected, imitable = problem.whitened(before), imitable_responses(problem, fit)

@@ -1,4 +1,4 @@
-"""Responses of the predictions to effects that a model lacks, on a coarse mesh.
+"""Responses of the predictions to effects that a model lacks, on the mesh of a problem.
 
 The response to a small effect is a tangent: one replay of a run gives those of all effects. An effect that acts only together
 with another one that the model lacks as well, as an airflow without drag, has none; its response is a difference.
@@ -15,7 +15,6 @@ from comprope.rope.effects import RopeModel
 from ..data.runs import Channel, Run
 from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint, run_at_point
-from ..prediction.replay import coarsening_factor
 from ..prediction.replay_sensitivities import replay_with_sensitivities
 from ..settings import LINEARISATION, REPLAY
 from .linearisation import with_effect
@@ -56,7 +55,6 @@ def _tangents(
     problem: LeastSquaresProblem, point: ParameterPoint, tried: Sequence[Hypothesis]
 ) -> dict[Hypothesis, Floats]:
     """Responses as tangents; raises `SimulationError` where one diverges."""
-    coarse = coarsening_factor(problem.campaign.model)
     names = {one: [f"{i}.{k}" for k in range(len(one.directions))] for i, one in enumerate(tried)}
     directions: dict[str, Mapping[str, float]] = {}
     at: dict[str, Mapping[str, float]] = {}
@@ -64,8 +62,8 @@ def _tangents(
         for k, name in enumerate(own):
             directions[name], at[name] = amplitude_and_shape(one, k)
     model, channels, here = problem.campaign.model, problem.campaign.channels, problem.with_held_fixed(point)
-    there = [run_at_point(model, run, here, coarse) for run in problem.runs]
-    step = coarse * REPLAY.time_step
+    there = [run_at_point(model, run, here, problem.coarse) for run in problem.runs]
+    step = problem.coarse * REPLAY.time_step
     jobs = [problem.executor.submit(_run_tangents, model, run, channels, directions, step, at) for run in there]
     by_run = dict(zip((run.file for run in problem.runs), (job.result() for job in jobs), strict=True))
     return {one: np.column_stack([_column(problem, by_run, name) for name in own]) for one, own in names.items()}
@@ -100,7 +98,7 @@ def _differences(
     if not tried:
         return
     points = [point, *(there for one in tried for there in one_step_away(point, one))]
-    predicted = iter(problem.attempts(*points, coarse=coarsening_factor(problem.campaign.model)))
+    predicted = iter(problem.attempts(*points))
     if (before := next(predicted)) is None:
         return
     y = problem.whitened(before)

@@ -51,6 +51,10 @@ class LeastSquaresProblem:
             return self
         return self.corrected(factor, on_coarse_mesh, predictions)
 
+    def on_coarse_mesh(self) -> "LeastSquaresProblem":
+        """The same problem and data, replays on the coarse mesh of screening: for changes, whose error is a share of them."""
+        return replace(self, coarse=coarsening_factor(self.campaign.model))
+
     def corrected(self, coarse: float, on_coarse_mesh: Predictions, predictions: Predictions) -> "LeastSquaresProblem":
         """The same problem on a mesh that is `coarse` times as long, with `data` corrected by how both predictions differ."""
         change = self.whitened(on_coarse_mesh) - self.whitened(predictions)

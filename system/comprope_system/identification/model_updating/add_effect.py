@@ -168,7 +168,7 @@ def _best_start(baseline: BaselineFit, tried: list[Hypothesis]) -> tuple[Hypothe
     problem, (old, own) = baseline.problem, effects_in_model(baseline.campaign)
     plant = len(PLANT_PARAMETERS)
     origin = point_at(old, [*np.zeros(plant), *own], ParameterPoint())
-    columns = effect_responses(problem, origin, [one for one in tried if not one.follows_from_predictions])
+    columns = effect_responses(problem.on_coarse_mesh(), origin, [one for one in tried if not one.follows_from_predictions])
     at = baseline.initial_fit.predictions
     columns |= {one: instrument_jacobian(problem, one, origin, at) for one in tried if one.follows_from_predictions}
     screened = screen_about_fits(problem, columns, baseline.fitted, baseline.initial_fit)
