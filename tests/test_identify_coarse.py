@@ -8,8 +8,7 @@ import pytest
 
 from comprope.rope.model_file import with_changes
 from comprope_system.identification.data.campaign import load_campaign
-from comprope_system.identification.diagnosis.candidate_fits import problem_of_fits
-from comprope_system.identification.estimation.coarse_to_fine import fit_coarse_to_fine, with_derivatives
+from comprope_system.identification.estimation.coarse_to_fine import fit_coarse_to_fine, problem_of_fits, with_derivatives
 from comprope_system.identification.estimation.gauss_newton import gauss_newton
 from comprope_system.identification.estimation.weighted_least_squares import build_problem
 from comprope_system.identification.prediction.parameter_point import ParameterPoint, collect_predictions, submit_replays

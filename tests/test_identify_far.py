@@ -11,7 +11,7 @@ from comprope_system.identification.estimation.effect_responses import one_step_
 from comprope_system.identification.estimation.gauss_newton import evaluate
 from comprope_system.identification.estimation.mass_search import search_rope_mass
 from comprope_system.identification.estimation.parameter_estimates import plant_estimates
-from comprope_system.identification.model_updating.add_effect import fit_baseline
+from comprope_system.identification.model_updating.baseline_fit import fit_baseline
 from comprope_system.identification.prediction.effect_hypotheses import combine, hypotheses_of_effect, instrument_hypotheses
 from comprope_system.identification.prediction.model_effects import shapes_of
 from comprope_system.identification.prediction.parameter_point import ParameterPoint

@@ -10,7 +10,7 @@ from comprope_system.identification.comparison.nrmse import channel_error
 from comprope_system.identification.data.campaign import load_campaign
 from comprope_system.identification.diagnosis.diagnose import diagnose
 from comprope_system.identification.estimation.parameter_estimates import plant_estimates
-from comprope_system.identification.model_updating.add_effect import fit_baseline
+from comprope_system.identification.model_updating.baseline_fit import fit_baseline
 from comprope_system.identification.prediction.plant_parameters import CLOCK, PLANT_PARAMETERS
 from comprope_system.identification.prediction.replay import instrument
 from comprope_system.parallel.executors import threads

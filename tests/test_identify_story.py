@@ -26,7 +26,8 @@ from comprope_system.identification.diagnosis.held_out_validation import to_json
 from comprope_system.identification.estimation.parameter_estimates import effect_estimates, standard_error_scale
 from comprope_system.identification.model_updating import add_effect
 from comprope_system.identification.model_updating import stepwise_selection as steps
-from comprope_system.identification.model_updating.add_effect import campaign_parameters, file_comment, fit_baseline
+from comprope_system.identification.model_updating.baseline_fit import fit_baseline
+from comprope_system.identification.model_updating.updated_model import campaign_parameters, file_comment
 from comprope_system.identification.prediction.effect_hypotheses import combine, hypotheses_of_effect
 from comprope_system.identification.prediction.model_effects import shape_hypotheses
 from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS

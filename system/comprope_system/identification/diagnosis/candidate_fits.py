@@ -66,17 +66,6 @@ class FitContext:
     report_progress: ProgressCallback
 
 
-def problem_of_fits(problem: LeastSquaresProblem, rough: LeastSquaresProblem, baseline: FitResult) -> LeastSquaresProblem:
-    """The problem on the coarse mesh, corrected about the plant's fit; on its own mesh where that errs too much.
-
-    `rough` is corrected about the point at which the plant's fit began. How the correction has changed from there tells by how
-    much the coarse mesh errs elsewhere, beside what the plant's fit leaves beyond noise.
-    """
-    coarse = problem.coarsened(baseline.point, baseline.predictions)
-    error = float(np.sum((rough.data - coarse.data) ** 2))
-    return coarse if error <= CANDIDATES.coarse_error * (baseline.chi_square - len(problem.data)) else problem
-
-
 def noise_level(context: FitContext, found: Iterable[CandidateFit]) -> NoiseLevel:
     """The noise as the plant's fit and the fits of effects on the full model tell it."""
     fits = [context.baseline, *(one.fitted for one in found if one.refined)]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..data.campaign import Campaign
-from ..estimation.coarse_to_fine import fit_from_file
+from ..estimation.coarse_to_fine import fit_from_file, problem_of_fits
 from ..estimation.gauss_newton import FitResult
 from ..estimation.model_score import NoiseLevel, complexity_penalty, least_noticed, log_score
 from ..estimation.weighted_least_squares import LeastSquaresProblem, build_problem
@@ -21,7 +21,7 @@ from ..prediction.parameter_point import ParameterPoint, Predictions, collect_pr
 from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 from ..settings import CANDIDATES, SCORE, SCREENING, VERDICT
-from .candidate_fits import CandidateFit, FitContext, least_chi_square, noise_level, problem_of_fits
+from .candidate_fits import CandidateFit, FitContext, least_chi_square, noise_level
 from .candidate_selection import FullMeshFits, fit_candidates, refit_from_other_masses
 from .linear_screening import ScreenedHypothesis, indistinguishable, screen_at_other_masses, screen_hypotheses
 from .pair_fits import fit_pair, with_single_fits

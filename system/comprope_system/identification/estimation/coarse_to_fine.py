@@ -10,6 +10,7 @@ from comprope.errors import SimulationError
 
 from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint, Predictions
+from ..settings import REPLAY
 from .gauss_newton import FitResult, evaluate, fit_on_full_mesh, gauss_newton
 from .linearisation import point_at
 from .mass_search import fit_with_mass_search
@@ -50,6 +51,17 @@ def fit_from_file(
     elif rough.coarse != problem.coarse:  # effects are reported, whatever is left
         fitted = gauss_newton(problem, hypothesis, fitted.coefficients, base)
     return FitFromFile(rough, initial, fitted)
+
+
+def problem_of_fits(problem: LeastSquaresProblem, rough: LeastSquaresProblem, baseline: FitResult) -> LeastSquaresProblem:
+    """The problem on the coarse mesh, corrected about the plant's fit; on its own mesh where that errs too much.
+
+    `rough` is corrected about the point at which the plant's fit began. How the correction has changed from there tells by how
+    much the coarse mesh errs elsewhere, beside what the plant's fit leaves beyond noise.
+    """
+    coarse = problem.coarsened(baseline.point, baseline.predictions)
+    error = float(np.sum((rough.data - coarse.data) ** 2))
+    return coarse if error <= REPLAY.coarse_error * (baseline.chi_square - len(problem.data)) else problem
 
 
 def fit_coarse_to_fine(

@@ -5,16 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..estimation.coarse_to_fine import fit_coarse_to_fine
 from ..estimation.gauss_newton import FitResult
 from ..estimation.model_score import NoiseLevel, log_score
-from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.model_effects import combined_or_none, components_by_effect
-from ..prediction.parameter_point import ParameterPoint
 from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 from ..settings import SCORE
-from .add_effect import BaselineFit
+from .baseline_fit import BaselineFit
 
 Floats = NDArray[np.float64]
 
@@ -55,13 +52,9 @@ def _remove(baseline: BaselineFit, fitted: FitResult, name: str, report_progress
     left = combined_or_none([part for part, _ in kept])
     start = np.concatenate([fitted.coefficients[: len(PLANT_PARAMETERS)], [c for _, own in kept for c in own]])
     # Without any effect it is the fit that the selection has begun with.
-    found = baseline.fitted if left is baseline.fitted.hypothesis else _refitted(baseline, left, start)
+    found = baseline.fitted if left is baseline.fitted.hypothesis else baseline.fit(left, start)
     noise = NoiseLevel.of_fits(len(baseline.problem.data), (found.chi_square, fitted.chi_square))
     return EffectRemoval(name, found, found.chi_square / noise.count, _score(found, noise) >= _score(fitted, noise))
-
-
-def _refitted(baseline: BaselineFit, left: Hypothesis | None, start: Floats) -> FitResult:
-    return fit_coarse_to_fine(baseline.problem, left, start, ParameterPoint())
 
 
 def _score(fitted: FitResult, noise: NoiseLevel) -> float:

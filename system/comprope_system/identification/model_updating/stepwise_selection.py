@@ -20,8 +20,10 @@ from ..prediction.model_effects import components_by_effect
 from ..prediction.plant_parameters import PLANT_PARAMETERS
 from ..progress import ProgressCallback, no_progress
 from ..settings import MODEL_UPDATING
-from .add_effect import BaselineFit, UpdatedModel, fit_baseline, fit_with_effect, updated_model
+from .add_effect import fit_with_effect
 from .backward_elimination import EffectRemoval, eliminate_backward
+from .baseline_fit import BaselineFit, fit_baseline
+from .updated_model import UpdatedModel, updated_model
 
 
 @dataclass(frozen=True)

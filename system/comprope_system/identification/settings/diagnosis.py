@@ -70,10 +70,6 @@ class Candidates:
         7.0, "1", "log score below the best one's up to which a fit is continued on the full mesh",
         f"{DERIVED}: a probability of 0.001",
     )
-    coarse_error: float = setting(
-        0.25, "1", "error of the coarse mesh over what the plant's fit leaves beyond noise, up to which fits are made on it",
-        f"{JUDGEMENT}: then it errs by half the amplitude that an effect is to explain",
-    )  # fmt: skip
     leader_min_decrease: float = setting(
         14.0, "1", "decrease of chi-square below which the fit of an effect that no other comes near ends on the full mesh",
         f"{DERIVED}: twice close_score; stick and slip make chi-square rough on that scale",

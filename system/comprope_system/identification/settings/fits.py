@@ -21,6 +21,10 @@ class Replay:
     coarse_element: float = setting(
         0.3, "1", "longest element in screening, over the sheave's radius; a longer one does not follow the groove", JUDGEMENT
     )
+    coarse_error: float = setting(
+        0.25, "1", "error of the coarse mesh over what the plant's fit leaves beyond noise, up to which effects are fitted on it",
+        f"{JUDGEMENT}: then it errs by half the amplitude that an effect is to explain",
+    )  # fmt: skip
     height_step: float = setting(
         0.1, "m", "distance over which the slope of the rope at a sensor is differenced", f"{JUDGEMENT}: two elements"
     )

@@ -12,8 +12,8 @@ from comprope.rope.model_file import dump
 from ...identification.comparison.compare import Comparison
 from ...identification.data.campaign import Campaign
 from ...identification.estimation.parameter_estimates import Estimate
-from ...identification.model_updating.add_effect import UpdatedModel, file_comment
 from ...identification.model_updating.stepwise_selection import SelectionStep, StepwiseSelection
+from ...identification.model_updating.updated_model import UpdatedModel, file_comment
 from ...report.result import Result
 from ..reporting import tables
 from ..reporting.texts import sentences

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from ....identification.model_updating.add_effect import UpdatedModel
 from ....identification.model_updating.stepwise_selection import StepwiseSelection
+from ....identification.model_updating.updated_model import UpdatedModel
 from ....report.page import Block, Picture, Section, save_page
 from .. import figures, tables
 from ..texts import sentences

@@ -12,8 +12,8 @@ from ....identification.diagnosis.held_out_validation import (
     ranking,
     reduced_chi_square,
 )
-from ....identification.model_updating.add_effect import UpdatedModel
 from ....identification.model_updating.stepwise_selection import StepwiseSelection
+from ....identification.model_updating.updated_model import UpdatedModel
 from ....identification.settings import COMPARISON, VERDICT
 from .detection_limits import detection_sentence
 from .formatting import number, percent, probability
