@@ -36,19 +36,20 @@ def test_a_parameter_at_its_bound_is_named() -> None:
     assert identifiability(*fit(torque=30.0)).at_bound == (TORQUE,)
     assert identifiability(*fit(torque=29.99)).at_bound == ()
     assert estimate_sentences(*fit(torque=30.0)) == [
-        "bearing_friction.coulomb_torque is at the limit of what is accepted, where the interval says little."
+        "The Coulomb torque of bearing friction is at the limit of what is accepted, where the interval says little."
     ]
 
 
 def test_a_size_below_its_standard_error_is_undetermined() -> None:
     found = identifiability(*fit(error=6.0))
     assert (found.at_bound, found.undetermined) == ((), (FORCE,))
-    assert "do not determine guide_friction.coulomb_force" in estimate_sentences(*fit(error=6.0))[0]
+    assert "do not determine the Coulomb force of guide friction" in estimate_sentences(*fit(error=6.0))[0]
 
 
 def test_estimates_that_only_hold_together_are_named() -> None:
     found = identifiability(*fit(correlation=-0.97))
     assert [(a, b, round(r, 9)) for a, b, r in found.correlated] == [(TORQUE, "rope.bending_stiffness", -0.97)]
     (sentence,) = estimate_sentences(*fit(correlation=-0.97))
-    assert "bearing_friction.coulomb_torque is strongly correlated with rope.bending_stiffness (-0.97):" in sentence
+    told = "the Coulomb torque of bearing friction is strongly correlated with the bending stiffness of the rope (-0.97):"
+    assert told in sentence
     assert identifiability(*fit(torque=30.0, correlation=-0.97)).correlated == ()  # a bound says it already

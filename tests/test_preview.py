@@ -203,7 +203,7 @@ def test_settings_are_pinned_undone_and_kept_over_a_reload(page, two):
       .panel.curves.map((one) => one.name)"""
     with opened(page.as_uri()) as shown:
         assert "stays a preview" in shown.locator(".preview .acts").text_content()
-        slider, pins = shown.get_by_label("coulomb torque [N·m]", exact=True), shown.locator(".pins tbody tr")
+        slider, pins = shown.get_by_label("Coulomb torque [N·m]", exact=True), shown.locator(".pins tbody tr")
         first = slider.input_value()
         for _ in range(30):
             slider.press("ArrowRight")
@@ -217,12 +217,12 @@ def test_settings_are_pinned_undone_and_kept_over_a_reload(page, two):
             shown.get_by_role("button", name="Undo").click()
         expect(slider).to_have_value(first)
         expect(shown.get_by_role("button", name="Undo")).to_be_disabled()
-        assert len(shown.evaluate(drawn)) == 3 and shown.evaluate(drawn)[1].startswith("bearing friction: coulomb torque")
+        assert len(shown.evaluate(drawn)) == 3 and shown.evaluate(drawn)[1].startswith("bearing friction: Coulomb torque")
         shown.reload()
         expect(pins).to_have_count(1)
-        expect(shown.get_by_label("coulomb torque [N·m]", exact=True)).to_have_value(first)
+        expect(shown.get_by_label("Coulomb torque [N·m]", exact=True)).to_have_value(first)
         pins.get_by_role("button", name="go there").click()
-        expect(shown.get_by_label("coulomb torque [N·m]", exact=True)).to_have_value(second)
+        expect(shown.get_by_label("Coulomb torque [N·m]", exact=True)).to_have_value(second)
         pins.get_by_role("button", name="remove").click()
         expect(pins).to_have_count(0)
         assert shown.evaluate(drawn) == ["measured", "model"]
@@ -231,7 +231,7 @@ def test_settings_are_pinned_undone_and_kept_over_a_reload(page, two):
 @needs_chromium
 def test_a_replay_stays_until_the_hand_moves_on(page, two):
     with opened(page.as_uri()) as shown:
-        slider = shown.get_by_label("coulomb torque")
+        slider = shown.get_by_label("Coulomb torque")
         slider.press("ArrowLeft")
         told = """() => {
           const preview = compropePreviews.get("preview"), errors = { fit: 0.123, validate: 0.456 };
@@ -252,7 +252,7 @@ def test_a_replay_stays_until_the_hand_moves_on(page, two):
 @needs_chromium
 def test_sliders_obey_the_keyboard_and_fit_a_narrow_window(page):
     with opened(page.as_uri(), 700) as shown:
-        slider = shown.get_by_label("coulomb torque")
+        slider = shown.get_by_label("Coulomb torque")
         before = float(slider.input_value())
         slider.focus()
         slider.press("ArrowLeft")

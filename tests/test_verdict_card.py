@@ -78,7 +78,7 @@ def test_an_effect_could_not_be_seen_if_no_parameter_of_typical_size_would_be():
     ]
     assert found == [
         "Each known effect would have been seen at its typical size.",
-        "These data would not have shown bearing friction below coulomb torque 7 N·m.",
+        "These data would not have shown bearing friction below Coulomb torque 7 N·m.",
     ]
 
 

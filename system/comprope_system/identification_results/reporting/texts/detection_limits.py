@@ -5,6 +5,7 @@ from comprope.rope.effects import REGISTRY
 
 from ....identification.diagnosis.diagnose import Candidate, Diagnosis
 from ....identification.diagnosis.held_out_validation import effects_of
+from .effect_descriptions import parameter_label
 from .formatting import in_handy_unit, listed_words
 
 
@@ -33,4 +34,4 @@ def _limit_above_nominal(one: Candidate) -> list[str]:
         return []
     quantity, limit = next(iter(sizes.items()))
     (size,) = in_handy_unit(quantity.unit, limit)
-    return [f"{effect.replace('_', ' ')} below {quantity.name.replace('_', ' ')} {size}"]
+    return [f"{effect.replace('_', ' ')} below {parameter_label(effect, quantity.name)} {size}"]

@@ -175,7 +175,9 @@ def drawing(effect: str) -> str:
 
 def parameter_label(effect: str, name: str) -> str:
     """A parameter of an effect in words; that of a fault of an instrument names its channel."""
-    return f"{effect.removeprefix('sensor_')} of {name}" if effect not in REGISTRY else name.replace("_", " ")
+    if effect not in REGISTRY:
+        return f"{effect.removeprefix('sensor_')} of {name}"
+    return name.replace("_", " ").replace("coulomb", "Coulomb")
 
 
 def parameter_unit(channels: Mapping[str, Channel], effect: str, name: str) -> str:

@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 
+from comprope.rope.effects import REGISTRY
+
 from ....identification.data.runs import Channel
 from ....identification.estimation.gauss_newton import FitResult
 from ....identification.estimation.identifiability import identifiability
@@ -16,7 +18,8 @@ def estimate_sentences(fitted: FitResult, estimates: Mapping[str, Estimate]) -> 
     sentences = []
     if found.at_bound:
         verb = "is" if len(found.at_bound) == 1 else "are"
-        sentences.append(f"{_names(found.at_bound)} {verb} at the limit of what is accepted, where the interval says little.")
+        names = _capitalised(_names(found.at_bound))
+        sentences.append(f"{names} {verb} at the limit of what is accepted, where the interval says little.")
     if found.undetermined:
         sentences.append(f"These data do not determine {_names(found.undetermined)}: the standard error exceeds the value.")
     for first in dict.fromkeys(one[0] for one in found.correlated):
@@ -27,13 +30,22 @@ def estimate_sentences(fitted: FitResult, estimates: Mapping[str, Estimate]) -> 
     return sentences
 
 
+def _capitalised(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
 def _names(keys: tuple[str, ...]) -> str:
     return listed_words([_name(key) for key in keys])
 
 
 def _name(key: str) -> str:
-    """The parameter by its key in the model file, without the table of effects."""
-    return key.removeprefix("effects.")
+    """The parameter of a model key in words: "the Coulomb torque of bearing friction", "the bending stiffness of the rope"."""
+    group, *names = key.split(".", 2)
+    if group != "effects":
+        return f"the {' '.join(names).replace('_', ' ')} of the {group}"
+    effect, name = names
+    label = f"the {parameter_label(effect, name)}"
+    return f"{label} of {effect.replace('_', ' ')}" if effect in REGISTRY else label
 
 
 def estimate_in_words(channels: Mapping[str, Channel], key: str, one: Estimate) -> tuple[str, str, str]:
