@@ -96,7 +96,7 @@ def design(
     tables = {"shaft": {"height": height}, "trip": {"start_position": 0.0, "destination": height}}
     profile = read_drive(drive, model, tables).profile
     base: dict[str, Any] = {"model": as_table(given), "profile": profile.model_dump(), "floors": options.floors}
-    base |= {"sway": vars(sway) if sway else None}
+    base["sway"] = vars(sway) if sway else None
     with workers(jobs, executor) as chosen:
         sweeps = _Sweeps(chosen, Path(checkpoint) if checkpoint else None, progress)
         cases = [base | {"mass": float(mass)} for mass in MASS_RATIOS * given.sheave.mass if _wraps(given, float(mass))]
@@ -108,11 +108,7 @@ def design(
         new_model = model_with_sheave(given, least)
         asked = stop_cases(new_model, profile, options.floors, options.wall) if options.stops else []
         stops = sweeps.values(stop_case, asked, "stops") if asked else []
-    settings = {
-        "model": model_name(model), "limit": options.swing_limit,
-        "sway_limit": None if options.sway_limit is None else _millimetres(options.sway_limit),
-        "floors": options.floors, "sway": base["sway"],
-    }  # fmt: skip
+    settings = {"model": model_name(model)} | _settings(options)
     sensors = _sensors(new_model, profile, options)
     worst = min(scanned, key=lambda one: abs(one["mass"] - least))
     beside = clearances(new_model, profile, worst, sway, options.wall) if options.wall is not None else []
@@ -121,6 +117,16 @@ def design(
         settings, least, mass, tuple(scanned), tuple(runs), sensors, tuple(stops), given, new_model, profile, tuple(beside),
         sharing,
     )  # fmt: skip
+
+
+def _settings(options: DesignOptions) -> dict[str, Any]:
+    """The limits and floors of a design as its result states them."""
+    return {
+        "limit": options.swing_limit,
+        "sway_limit": None if options.sway_limit is None else _millimetres(options.sway_limit),
+        "floors": options.floors,
+        "sway": vars(options.sway) if options.sway else None,
+    }
 
 
 def _millimetres(length: float) -> float:

@@ -88,15 +88,12 @@ def simulate(
         own, source = by_key(changes)
         rope_model = with_changes(rope_model, measured.changes | own, source)
     elevator: AbstractContextManager[Elevator]
-    remarks: tuple[str, ...] = ()
-    if motion.stop:
-        elevator, natural = _stopped(model, motion, rope_model, drive_changes, fmus)
-        timing = Timing(natural if duration is None else duration, step, coupling)
-    elif measured:
+    if measured and not motion.stop:
         elevator = prescribed_elevator(rope_model, measured.trips, measured.lateral, fmus is None, fmus or OWN_FMUS)
         timing = measured_timing(measured, duration, step, coupling)
     else:
-        elevator, natural = _driven(model, motion, rope_model, drive_changes, fmus)
+        moving = _stopped if motion.stop else _driven
+        elevator, natural = moving(model, motion, rope_model, drive_changes, fmus)
         timing = Timing(natural if duration is None else duration, step, coupling)
     building = _moving_building(rope_model, measured, timing)
     with elevator as found:
@@ -104,10 +101,9 @@ def simulate(
         ready = in_building(ready, building.motion) if building else ready
         recorder = None if fmus else FrameRecorder(partial(_rope, ready), timing.step)
         simulated = simulate_trip(ready, names, timing, partial(_advance, progress, recorder, timing.steps_before))
+    remarks = _still_moving(simulated) if motion.stop else ()
     if building:
-        simulated, remarks = relative_to_building(simulated, rope_model, building.motion), (*remarks, *building.remarks)
-    if motion.stop:
-        remarks = (*remarks, *_still_moving(simulated))
+        simulated, remarks = relative_to_building(simulated, rope_model, building.motion), (*building.remarks, *remarks)
     recording = recorder.recording if recorder else None
     return SimulationResult(
         simulated.table, simulated.columns, simulated.sensors, rope_model, model_name(model), measured, recording, remarks,
