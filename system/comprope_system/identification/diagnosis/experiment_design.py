@@ -21,6 +21,7 @@ from ..data.runs import Run
 from ..data.whitening import whiten_channel
 from ..estimation.gauss_newton import FitResult
 from ..prediction.parameter_point import collect_predictions, submit_replays
+from ..prediction.replay import coarsening_factor
 from ..settings import EXPERIMENTS
 from .diagnose import Diagnosis
 
@@ -66,13 +67,16 @@ def best_two_fits(diagnosis: Diagnosis) -> tuple[tuple[str, FitResult], tuple[st
 
 
 def rank_candidate_runs(diagnosis: Diagnosis, executor: Executor) -> list[ProposedRun]:
-    """Candidate runs by the distance of the two best fits, largest first; the fits are not repeated with the new run."""
+    """Candidate runs by the distance of the two best fits, largest first; the fits are not repeated with the new run.
+
+    Both are predicted on the coarse mesh, whose error is nearly the same in both.
+    """
     pair = best_two_fits(diagnosis)
     if pair is None:
         return []
-    tried = list(candidate_runs(diagnosis.campaign))
+    tried, coarse = list(candidate_runs(diagnosis.campaign)), coarsening_factor(diagnosis.campaign.model)
     jobs = [
-        (one, run, [submit_replays(diagnosis.campaign, [run], fitted.point, executor) for _, fitted in pair])
+        (one, run, [submit_replays(diagnosis.campaign, [run], fitted.point, executor, coarse) for _, fitted in pair])
         for one, run in tried
     ]
     found = []
