@@ -143,6 +143,15 @@ def test_what_fails_on_the_way_is_status_1_and_leaves_no_file(capsys, tmp_path, 
         assert not list(tmp_path.iterdir())
 
 
+def test_a_command_that_fails_leaves_no_folder(capsys, tmp_path):
+    new, taken = tmp_path / "new" / "results", tmp_path / "file"
+    taken.write_text("")
+    assert run(capsys, "tune", "tower50", "--times", "0.1", "--out", new)[0] == 2
+    status, _, errors = run(capsys, "tune", "tower50", "--out", taken / "results")
+    assert (status, errors) == (2, f"{taken / 'results' / 'tuning.html'}: its folder cannot be created: {taken} is a file\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
 def test_help_names_commands_and_presets(capsys):
     status, told, _ = run(capsys)
     assert status == 0 and "simulate" in told

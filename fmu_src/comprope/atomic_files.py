@@ -23,6 +23,7 @@ def atomic_write(path: str | Path) -> Iterator[Path]:
     temporary = target.with_name(f".{target.stem}-{uuid.uuid4().hex}{target.suffix}")
     try:
         require_writable(target)
+        target.parent.mkdir(parents=True, exist_ok=True)
         yield temporary
         temporary.replace(target)
     except OSError as error:
@@ -61,7 +62,7 @@ def read_text_file(path: str | Path) -> str:
 
 
 def require_writable(path: str | Path, kind: str | None = None) -> None:
-    """Create the folder of an output file; raises `InputError` if the file could not be written there.
+    """Raise `InputError` if an output file could not be written, or its folder not be created; nothing is created yet.
 
     A file of a `kind` must have a matching extension. Called before long computations, so that no result is lost.
     """
@@ -71,10 +72,13 @@ def require_writable(path: str | Path, kind: str | None = None) -> None:
     if kind and target.suffix.lower() not in ENDINGS[kind]:
         raise InputError(f"{path}: a name that ends in {', '.join(ENDINGS[kind])} is accepted for a {kind}")
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"{path}: its folder cannot be created: {error.strerror}") from None
-    if target.is_dir():
+        folder = next(one for one in target.absolute().parents if one.exists())
+        taken = target.is_dir()
+    except OSError as error:  # a name that is too long, a folder that must not be looked into
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+    if taken:
         raise InputError(f"{path}: is a folder; give the name of a file")
-    if not os.access(target.parent, os.W_OK):
+    if not folder.is_dir():
+        raise InputError(f"{path}: its folder cannot be created: {folder} is a file")
+    if not os.access(folder, os.W_OK):
         raise InputError(f"{path}: the folder cannot be written to")

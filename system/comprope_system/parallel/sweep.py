@@ -148,6 +148,7 @@ def _append(store: Path, key: str, outcome: Outcome) -> None:
     """Append one line, after a newline if the file ends with a truncated line."""
     if not store.exists():
         require_writable(store)
+        store.parent.mkdir(parents=True, exist_ok=True)
     told = {"failed": outcome.failed} if outcome.failed else {"value": outcome.value}
     cut = store.exists() and store.stat().st_size > 0 and not store.read_bytes().endswith(b"\n")
     with store.open("a", encoding="utf-8") as file:
