@@ -4,12 +4,15 @@ import re
 from types import SimpleNamespace
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
 from comprope.rope.effects import INSTRUMENT, REGISTRY
+from comprope_system.identification.prediction.plant_parameters import PLANT_PARAMETERS
 from comprope_system.identification_results.reporting.texts.detection_limits import detection_sentence
 from comprope_system.identification_results.reporting.texts.effect_descriptions import MEANINGS, drawing, meaning
 from comprope_system.identification_results.reporting.texts.formatting import in_handy_unit, listed_words, number
+from comprope_system.identification_results.reporting.texts.sentences import verdict_sentences
 from comprope_system.report.card import Card
 from comprope_system.report.page import Section, save_page
 
@@ -80,6 +83,17 @@ def test_an_effect_could_not_be_seen_if_no_parameter_of_typical_size_would_be():
         "Each known effect would have been seen at its typical size.",
         "These data would not have shown bearing friction below Coulomb torque 7 N·m.",
     ]
+
+
+@pytest.mark.parametrize(("left", "told"), [(0.25, "less than the noise by a factor of 2: the noise is overestimated"), (0.41, "")])
+def test_noise_that_is_far_larger_than_what_is_left_is_reported(left, told):
+    found = SimpleNamespace(
+        verdict=None, kind="adequate", ranking=[], probabilities={"adequate": 0.9}, campaign=None, indistinguishable=(),
+        baseline=SimpleNamespace(chi_square=1000.0 * left, coefficients=np.zeros(len(PLANT_PARAMETERS))),
+        problem=SimpleNamespace(ruled_out=(), data=np.zeros(1000), plant=PLANT_PARAMETERS),
+    )  # fmt: skip
+    text = " ".join(verdict_sentences(SimpleNamespace(diagnosis=found)))
+    assert (told in text) if told else ("overestimated" not in text)
 
 
 def test_texts_of_a_card_are_escaped(tmp_path):

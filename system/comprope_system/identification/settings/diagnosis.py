@@ -103,6 +103,10 @@ class Verdict:
     incomplete_chi_square: float = setting(
         1.5, "1", "reduced chi-square of the verdict's fit above which more may be missing, as is then reported", JUDGEMENT
     )
+    overestimated_chi_square: float = setting(
+        0.4, "1", "reduced chi-square below which the noise is reported as overestimated",
+        f"{DERIVED}: an unstated deviation is taken at most 1.5 times too large (Noise.largest_upper_limit), 1 / 1.5^2 = 0.44",
+    )  # fmt: skip
     likely_probability: float = setting(
         0.02, "1", "probability above which an effect indistinguishable from the verdict is reported", JUDGEMENT
     )

@@ -57,11 +57,13 @@ def verdict_sentences(validated: ValidatedDiagnosis) -> list[str]:
     excluded = [f"Excluded by the user: {', '.join(sorted(out))}."] if (out := found.problem.ruled_out) else []
     implausible = _implausible(found)
     if found.verdict:
-        return [_missing_effect(validated), *implausible, *excluded]
+        left = reduced_chi_square(validated, found.ranking[0])
+        return [_missing_effect(validated), *_overestimated_noise(left), *implausible, *excluded]
     if found.kind == "adequate":
         text = "Nothing is missing: with refitted plant parameters the residual is explained by measurement noise"
         sure = f"{text} (probability {probability(found.probabilities['adequate'])})."
-        return [sure, detection_sentence(found), *implausible, *excluded]
+        left = found.baseline.chi_square / max(len(found.problem.data), 1)
+        return [sure, *_overestimated_noise(left), detection_sentence(found), *implausible, *excluded]
     return [
         "An effect is missing, and none of the known effects explains the residual "
         f"(probability {probability(found.probabilities['unknown'])}).",
@@ -92,6 +94,17 @@ def _missing_effect(validated: ValidatedDiagnosis) -> str:
         f"would give {percent(validated.before.noise_nrmse('fit'))} and "
         f"{percent(validated.before.noise_nrmse('validate'))}.{rest}"
     )
+
+
+def _overestimated_noise(left: float) -> list[str]:
+    """A remark where a fit leaves far less than the noise: `left` is its reduced chi-square."""
+    if left >= VERDICT.overestimated_chi_square:
+        return []
+    factor = number(max(left, 1e-300) ** -0.5)
+    return [
+        f"What is left is less than the noise by a factor of {factor}: the noise is overestimated, by what campaign.toml states "
+        "or because strong vibration in motion counts as noise, and smaller effects go unnoticed."
+    ]
 
 
 def _implausible(found: Diagnosis) -> list[str]:
