@@ -85,7 +85,7 @@ def test_an_effect_could_not_be_seen_if_no_parameter_of_typical_size_would_be():
     ]
 
 
-@pytest.mark.parametrize(("left", "told"), [(0.25, "less than the noise by a factor of 2: the noise is overestimated"), (0.41, "")])
+@pytest.mark.parametrize(("left", "told"), [(0.25, "less than the noise by a factor of 2: it is overestimated"), (0.41, "")])
 def test_noise_that_is_far_larger_than_what_is_left_is_reported(left, told):
     found = SimpleNamespace(
         verdict=None, kind="adequate", ranking=[], probabilities={"adequate": 0.9}, campaign=None, indistinguishable=(),

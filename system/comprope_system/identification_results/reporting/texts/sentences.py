@@ -102,7 +102,7 @@ def _overestimated_noise(left: float) -> list[str]:
         return []
     factor = number(max(left, 1e-300) ** -0.5)
     return [
-        f"What is left is less than the noise by a factor of {factor}: the noise is overestimated, by what campaign.toml states "
+        f"What is left is less than the noise by a factor of {factor}: it is overestimated, by what campaign.toml states "
         "or because strong vibration in motion counts as noise, and smaller effects go unnoticed."
     ]
 
