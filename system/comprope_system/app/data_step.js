@@ -168,6 +168,9 @@ function sheave(file, key, value) {
 }
 
 find("#save").addEventListener("click", async () => {
+  const from = location.hash;
   find("#save").disabled = true;
-  if (await ask("POST", "/campaign", {})) { tell(""); location.hash = "check"; } else find("#save").disabled = false;
+  const saved = await ask("POST", "/campaign", {});
+  find("#save").disabled = saved !== null;
+  if (saved !== null && location.hash === from) { tell(""); location.hash = "check"; } // whoever has gone to another step stays there
 });
