@@ -41,11 +41,11 @@ def test_a_fit_continued_from_the_coarse_mesh_ends_where_one_on_the_full_mesh_do
     assert errors == pytest.approx(np.ones(len(start)), rel=0.5)
 
 
-@pytest.mark.parametrize(("error", "on_coarse_mesh"), [(0.2, True), (0.3, False)])
+@pytest.mark.parametrize(("left", "error", "on_coarse_mesh"), [(3.0, 0.2, True), (3.0, 0.3, False), (1.05, 0.3, True)])
 def test_effects_are_fitted_on_the_full_mesh_where_the_coarse_one_errs_by_what_they_explain(
-    tmp_path, monkeypatch, error, on_coarse_mesh
+    tmp_path, monkeypatch, left, error, on_coarse_mesh
 ):
-    """The plant leaves three times the noise: twice beyond it. The coarse mesh errs by a share of that."""
+    """The plant leaves some multiple of the noise. The coarse mesh errs by a share of what is beyond it."""
     monkeypatch.setattr(virtual_elevator, "MODEL", with_changes(virtual_elevator.MODEL, {"rope.element_length": 0.06}))
     campaign = load_campaign(virtual_elevator.campaign(tmp_path, {}))
     runs = campaign.of_role("fit")
@@ -53,7 +53,7 @@ def test_effects_are_fitted_on_the_full_mesh_where_the_coarse_one_errs_by_what_t
         nominal = collect_predictions(runs, submit_replays(campaign, runs, ParameterPoint(), executor))
         problem = build_problem(campaign, runs, executor, nominal)
         coarse, count = problem.coarsened(ParameterPoint(), nominal), len(problem.data)
-        rough = replace(coarse, data=coarse.data + np.sqrt(2.0 * error))
-        baseline = SimpleNamespace(point=ParameterPoint(), predictions=nominal, chi_square=3.0 * count)
+        rough = replace(coarse, data=coarse.data + np.sqrt((left - 1.0) * error))
+        baseline = SimpleNamespace(point=ParameterPoint(), predictions=nominal, chi_square=left * count)
         found = problem_of_fits(problem, rough, baseline)
     assert found.coarse == (coarse.coarse if on_coarse_mesh else 1.0)

@@ -10,7 +10,7 @@ from comprope.errors import SimulationError
 
 from ..prediction.effect_hypotheses import Hypothesis
 from ..prediction.parameter_point import ParameterPoint, Predictions
-from ..settings import REPLAY
+from ..settings import CANDIDATES, REPLAY
 from .gauss_newton import FitResult, evaluate, fit_on_full_mesh, gauss_newton
 from .linearisation import point_at
 from .mass_search import fit_with_mass_search
@@ -57,11 +57,13 @@ def problem_of_fits(problem: LeastSquaresProblem, rough: LeastSquaresProblem, ba
     """The problem on the coarse mesh, corrected about the plant's fit; on its own mesh where that errs too much.
 
     `rough` is corrected about the point at which the plant's fit began. How the correction has changed from there tells by how
-    much the coarse mesh errs elsewhere, beside what the plant's fit leaves beyond noise.
+    much the coarse mesh errs elsewhere, beside what the plant's fit leaves beyond noise. Where that fit explains the data there is
+    little to be fitted, and the coarse mesh serves.
     """
-    coarse = problem.coarsened(baseline.point, baseline.predictions)
+    coarse, count = problem.coarsened(baseline.point, baseline.predictions), len(problem.data)
     error = float(np.sum((rough.data - coarse.data) ** 2))
-    return coarse if error <= REPLAY.coarse_error * (baseline.chi_square - len(problem.data)) else problem
+    explained = baseline.chi_square <= CANDIDATES.explained * count
+    return coarse if explained or error <= REPLAY.coarse_error * (baseline.chi_square - count) else problem
 
 
 def fit_coarse_to_fine(
