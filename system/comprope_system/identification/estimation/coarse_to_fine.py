@@ -57,8 +57,8 @@ def problem_of_fits(problem: LeastSquaresProblem, rough: LeastSquaresProblem, ba
     """The problem on the coarse mesh, corrected about the plant's fit; on its own mesh where that errs too much.
 
     `rough` is corrected about the point at which the plant's fit began. How the correction has changed from there tells by how
-    much the coarse mesh errs elsewhere, beside what the plant's fit leaves beyond noise. Where that fit explains the data there is
-    little to be fitted, and the coarse mesh serves.
+    much the coarse mesh errs elsewhere, beside what the plant's fit leaves beyond noise. Where that fit explains the data little
+    is left to be fitted, and the coarse mesh serves.
     """
     coarse, count = problem.coarsened(baseline.point, baseline.predictions), len(problem.data)
     error = float(np.sum((rough.data - coarse.data) ** 2))
