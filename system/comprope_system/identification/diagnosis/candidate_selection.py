@@ -65,23 +65,19 @@ class FullMeshFits:
         noise = noise_level(self.context, found)
         top = max((one.log_score(noise) for one in found), default=0.0)
         promising = [one for one in found if one.refined and one.log_score(noise) > top - CANDIDATES.close_score]
-        min_decrease = CANDIDATES.leader_min_decrease if len(promising) == 1 else 0.0
-        self.known.extend((one.fitted, self._finished(one, min_decrease)) for one in promising if self._continuation(one) is None)
+        self.known.extend((one.fitted, self._finished(one)) for one in promising if self._continuation(one) is None)
         return [self._continuation(one) or one for one in found]
 
     def _continuation(self, one: CandidateFit) -> CandidateFit | None:
         """What this very fit has become on the full mesh, if it was continued."""
         return next((finished for fitted, finished in self.known if fitted is one.fitted), None)
 
-    def _finished(self, one: CandidateFit, min_decrease: float) -> CandidateFit:
-        """The candidate fit on the full mesh, which ends where an iteration decreases chi-square by less than `min_decrease`.
-
-        It is unchanged where the model cannot be simulated there.
-        """
+    def _finished(self, one: CandidateFit) -> CandidateFit:
+        """The candidate fit on the full mesh; unchanged where the model cannot be simulated there."""
         full, coarse = self.context.full_problem, one.fitted
         self.context.report_progress(f"{one.hypothesis.effect}: fit on the full mesh")
         try:
-            fitted = gauss_newton(full, coarse.hypothesis, coarse.coefficients, self.context.origin, min_decrease=min_decrease)
+            fitted = gauss_newton(full, coarse.hypothesis, coarse.coefficients, self.context.origin)
         except SimulationError:
             return one
         return one._replace(fitted=fitted, problem=full)

@@ -66,13 +66,11 @@ def gauss_newton(
     base: ParameterPoint,
     abandon_above: float = float("inf"),
     initial_fit: FitResult | None = None,
-    min_decrease: float = 0.0,
 ) -> FitResult:
     """Fit of a hypothesis from the coefficients `start` (k,); `initial_fit` is the evaluation there, if it is known.
 
-    The fit ends where an iteration gains less than `GAUSS_NEWTON.min_gain`, or lowers the cost by less than `min_decrease`. One
-    whose linearisation predicts a chi-square above `abandon_above` ends where it is. Raises `SimulationError` if the model cannot
-    be simulated at `start`.
+    A fit whose linearisation predicts a chi-square above `abandon_above` ends where it is. Raises `SimulationError` if the model
+    cannot be simulated at `start`.
     """
     directions, count, fresh = problem.directions(hypothesis), len(problem.data), True
     best = initial_fit or evaluate(problem, hypothesis, np.asarray(start, float), base)
@@ -84,8 +82,7 @@ def gauss_newton(
         trusted = iteration >= GAUSS_NEWTON.trusted_iteration
         if solution.chi_square > abandon_above * (1.0 if trusted else GAUSS_NEWTON.hopeless_factor):
             break
-        enough = max(chi_square_resolution(best.chi_square, count, GAUSS_NEWTON.min_gain), min_decrease)
-        before = best.cost(scale)
+        enough, before = chi_square_resolution(best.chi_square, count, GAUSS_NEWTON.min_gain), best.cost(scale)
         predicted = before - solution.cost
         if predicted >= enough:
             # Where updated derivatives lead nowhere, shorter steps along them lead nowhere either.

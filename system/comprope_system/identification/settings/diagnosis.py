@@ -70,10 +70,6 @@ class Candidates:
         7.0, "1", "log score below the best one's up to which a fit is continued on the full mesh",
         f"{DERIVED}: a probability of 0.001",
     )
-    leader_min_decrease: float = setting(
-        14.0, "1", "decrease of chi-square below which the fit of an effect that no other comes near ends on the full mesh",
-        f"{DERIVED}: twice close_score; stick and slip make chi-square rough on that scale",
-    )  # fmt: skip
     explained: float = setting(
         1.1, "1", "reduced chi-square that counts as explained: below it effects are not screened at several sizes", JUDGEMENT
     )
