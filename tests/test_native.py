@@ -219,6 +219,7 @@ def test_the_reference_result_inside_is_met(fmu: Path, tmp_path: Path) -> None:
     [
         ({"sheave.mass": -3.0, "rope.diameter": 5.0}, "parameter rope.diameter = 5 m: 0.002 to 0.1 m is accepted (outer"),
         ({"sheave.mass": -3.0, "rope.diameter": 5.0}, "; parameter sheave.mass = -3 kg: 0.1 to 20000 kg is accepted (mass)"),
+        ({"sheave.ropes": 1.5}, "sheave.ropes: 1.5 ropes; a whole number is accepted"),
         ({"rope.element_length": 0.3}, "rope.element_length = 0.3 m is too coarse for the sheave; at most half of "),
         ({"car_position": 60.0, "counterweight_position": -10.0}, "car_position = 60 m with counterweight_position = -10 m at t"),
     ],

@@ -1,11 +1,11 @@
 """The mesh: number and natural length of the elements, corrected for the chords at the sheave."""
 
-from math import pi, sqrt
+from math import floor, pi, sqrt
 
 from ...kernels.jit import kernel
 from ..parameters.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, J, K, M, R, slot
 from ..runtime.kernel_arguments import RopeData, Workspace
-from ..runtime.status import SUCCESS, TOO_COARSE
+from ..runtime.status import NOT_WHOLE, SUCCESS, TOO_COARSE
 
 LENGTH = slot("rope.element_length")
 MASS, INERTIA, ROPES = slot("sheave.mass"), slot("sheave.inertia"), slot("sheave.ropes")
@@ -60,7 +60,10 @@ def generate_mesh(rope: RopeData) -> float:
 
 @kernel
 def check_mesh(rope: RopeData, work: Workspace) -> int:
-    """Refuse elements too long to lie round the sheave; returns SUCCESS or the kind of refusal."""
+    """Refuse parts of ropes, and elements too long to lie round the sheave; returns SUCCESS or the kind of refusal."""
     p, message = rope.p, work.message
+    if p[ROPES] != floor(p[ROPES]):
+        message[0] = p[ROPES]
+        return NOT_WHOLE
     message[0], message[1] = p[LENGTH], p[R]
     return TOO_COARSE if p[LENGTH] > 0.5 * p[R] else SUCCESS

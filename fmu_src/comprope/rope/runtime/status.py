@@ -8,6 +8,7 @@ from ...kernels import status as kernel_status
 SUCCESS, OUT_OF_REACH, NO_EQUILIBRIUM, LOST, LOST_AT_SHEAVE, TOO_MANY_STEPS, TOO_COARSE, OUT_OF_PLACE = range(8)
 # An end that moves too far, and one that is too fast, for each path of `end_conditions`.
 TOO_FAR, TOO_FAST = 8, 12
+NOT_WHOLE = 16
 _PATHS = ("car_position", "car_lateral_displacement", "counterweight_position", "counterweight_lateral_displacement")
 _TOO_FAR = (
     "%s = %%g m at t = %%g s: %%g m from its last value, %%g s earlier; at most %%g m/s, and jumps of at most %%g m, are "
@@ -48,6 +49,7 @@ MESSAGES: dict[int, tuple[type[CompropeError], str, int]] = {
         "rope.element_length = %g m is too coarse for the sheave; at most half of sheave.radius = %g m is accepted",
         2,
     ),
+    NOT_WHOLE: (InputError, "sheave.ropes: %g ropes; a whole number is accepted", 1),
     OUT_OF_PLACE: (
         InputError,
         "car_position = %g m with counterweight_position = %g m at the start: the axle would hang at %g m, and is built at %g m; "
