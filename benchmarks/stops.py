@@ -1,6 +1,6 @@
 """Stops of car and counterweight: rise of the sheave, forces and slack, with and without a tie-down; and a picture of one.
 
-    python benchmarks/stops.py [--convergence] [--cost] [--picture FILE.png]
+    python benchmarks/stops.py [--convergence] [--cost] [--bounce] [--picture FILE.png]
 
 The car moves down at the speed named and is stopped at half height: at 3 m/s2, 1 g and 15 m/s2, or by its safety gear.
 """
@@ -105,6 +105,28 @@ def cost() -> None:
         print(f"| {name} | {' | '.join(cells)} |", flush=True)
 
 
+def bounce() -> None:
+    """The safety gear in the tower: rise in the first flight, and the bounce off the rope whose ends the hoist ropes throw up.
+
+    A light mass that comes down at `down` on to a lossless spring whose other end goes up at `ends` leaves at `down + 2 ends`.
+    """
+    print("| speed | half the gap mm | rise then mm | down m/s | ends up m/s | up m/s | lossless m/s | restitution | rise mm |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for speed in SPEEDS:
+        table = stopped("tower50", speed, STOPS["safety gear"], {}).table
+        seen = table[table["time"] >= table["time"].iloc[-1] - 4.0]
+        half = 0.5 * (seen["car_position"] + seen["counterweight_position"] - 50.0).to_numpy()
+        rise, rate = seen["sheave_displacement"].to_numpy(), seen["sheave_velocity"].to_numpy()
+        most = int(np.argmax(rate))
+        least = most - 30 + int(np.argmin(rate[most - 30 : most]))  # rows of 0.01 s: the bounce is over within 0.3 s
+        ends = np.gradient(half, 0.01)[least : most + 1].max()
+        flight = int(np.argmax(half))
+        bound, returned = 2.0 * ends - rate[least], (rate[most] - ends) / (ends - rate[least])
+        heights = f"{1e3 * half[flight]:.0f} | {1e3 * rise[: flight + 15].max():.0f}"
+        speeds = f"{-rate[least]:.2f} | {ends:.2f} | {rate[most]:.2f} | {bound:.2f} | {returned:.2f}"
+        print(f"| {speed:g} | {heights} | {speeds} | {1e3 * rise.max():.0f} |", flush=True)
+
+
 def picture(path: Path) -> None:
     """Sheave rise, tensions and rope shapes in the hardest stop of the 200 m building."""
     result = stopped("building200", 9.0, STOPS["safety gear"], {})
@@ -148,14 +170,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--convergence", action="store_true", help="print what mesh and step change instead")
     parser.add_argument("--cost", action="store_true", help="print what slack, walls and a moving building cost instead")
+    parser.add_argument("--bounce", action="store_true", help="print the sheave's bounce after a safety gear beside hand values")
     parser.add_argument("--picture", type=Path, help="draw one stop instead")
     options = parser.parse_args()
     if options.picture:
         picture(options.picture)
         return
-    if options.convergence or options.cost:
-        (convergence if options.convergence else cost)()
-        return
+    for wanted, table in ((options.convergence, convergence), (options.cost, cost), (options.bounce, bounce)):
+        if wanted:
+            table()
+            return
     print(HEAD, "|---|---|---|---|---|---|---|---|---|---|---|", sep="\n")
     for preset in ("tower50", "building200"):
         for speed in SPEEDS:
