@@ -1,6 +1,6 @@
 """The mesh: number and natural length of the elements, corrected for the chords at the sheave."""
 
-from math import floor, pi, sqrt
+from math import ceil, pi, sqrt
 
 from ...kernels.jit import kernel
 from ..parameters.parameter_vector import EI, ELEMENT, HEIGHT, PIT, G, J, K, M, R, slot
@@ -62,7 +62,7 @@ def generate_mesh(rope: RopeData) -> float:
 def check_mesh(rope: RopeData, work: Workspace) -> int:
     """Refuse parts of ropes, and elements too long to lie round the sheave; returns SUCCESS or the kind of refusal."""
     p, message = rope.p, work.message
-    if p[ROPES] != floor(p[ROPES]):
+    if p[ROPES] != ceil(p[ROPES]):
         message[0] = p[ROPES]
         return NOT_WHOLE
     message[0], message[1] = p[LENGTH], p[R]
